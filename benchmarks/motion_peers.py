@@ -21,13 +21,13 @@ import pandas as pd
 import pinocchio as pin
 from benchmarks.diagnosis import ONE_THREAD
 
-from armscope.motion.layout import TorqueLayout
-from armscope.motion.preparation import Preparation, parts, preparation
-from armscope.motion.rows import MotionRows, build_rows
-from armscope.motion.so_far import stated_model
-from armscope.motion.timing import Stretch
+from armscope.motion.fitting.rows import MotionRows, build_rows
+from armscope.motion.fitting.so_far import stated_model
+from armscope.motion.fitting.weights import fitted_together
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.samples.preparation import Preparation, parts, preparation
+from armscope.motion.samples.timing import Stretch
 from armscope.motion.verdict import relative
-from armscope.motion.weights import fitted_together
 from armscope.robot.dynamics import MovingArm
 
 PEERS = Path(__file__).parent / "peers"

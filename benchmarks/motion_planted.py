@@ -21,7 +21,7 @@ import numpy as np
 from benchmarks.motion import arm_of_set
 
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
-from armscope.motion.timing import mended
+from armscope.motion.samples.timing import mended
 from armscope.recordings.motions import Motions, read_motions
 from armscope.robot.dynamics import MovingArm
 

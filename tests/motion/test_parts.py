@@ -10,30 +10,30 @@ from scipy.signal import butter, sosfiltfilt
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.inference.model_space import Candidate
-from armscope.motion import catalogue
-from armscope.motion import preparation as preparation_room
-from armscope.motion.causes import Seen
 from armscope.motion.check import check_motions
-from armscope.motion.consistency import PathAgreement
 from armscope.motion.constants import LIBRARY
-from armscope.motion.cutoff import chosen_cutoff
-from armscope.motion.first_look import first_look
-from armscope.motion.holding_out import folds
-from armscope.motion.judgement import HeldOutErrors, answer_of, headline
-from armscope.motion.layout import TorqueLayout
-from armscope.motion.library import place_causes
-from armscope.motion.masses import place_masses
+from armscope.motion.fitting.consistency import PathAgreement
+from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.first_look import first_look
+from armscope.motion.fitting.rows import build_rows
+from armscope.motion.fitting.selection import select_causes
+from armscope.motion.fitting.so_far import stated_model
+from armscope.motion.fitting.space import build_space
+from armscope.motion.fitting.weights import estimate_weights, fitted_together, weighed
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Seen
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.masses import place_masses
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import diagnose_motion
-from armscope.motion.preparation import parts, preparation
-from armscope.motion.recorded_ranges import seen_in
-from armscope.motion.rows import build_rows
-from armscope.motion.sampling_constants import CUTOFF, FILTER
-from armscope.motion.selection import select_causes
-from armscope.motion.so_far import stated_model
-from armscope.motion.space import build_space
-from armscope.motion.timing import Stretch, mended, stretches
+from armscope.motion.samples import preparation as preparation_room
+from armscope.motion.samples.constants import CUTOFF, FILTER
+from armscope.motion.samples.preparation import parts, preparation
+from armscope.motion.samples.timing import Stretch, mended, stretches
+from armscope.motion.summary.holding_out import folds
+from armscope.motion.summary.judgement import HeldOutErrors, answer_of, headline
 from armscope.motion.verdict import FoundCause, UnexplainedTorque, relative
-from armscope.motion.weights import estimate_weights, fitted_together, weighed
 from armscope.recordings.motions import Motions
 from armscope.verdict.effects import Parameter
 from tests.motion.moving import COULOMB, moved, robot
@@ -113,7 +113,7 @@ def test_long_stretches_in_parts_give_the_rows_of_the_whole(monkeypatch: pytest.
     how = preparation(200.0, 10.0, "test")
     layout, model = TorqueLayout(arm, (), False), stated_model(arm)
     whole = build_rows(layout, list(stretches(motions)), how, model)
-    monkeypatch.setattr("armscope.motion.preparation.FILTER", dataclasses.replace(FILTER, chunk=500))
+    monkeypatch.setattr("armscope.motion.samples.preparation.FILTER", dataclasses.replace(FILTER, chunk=500))
     pieces = build_rows(layout, list(stretches(motions)), how, model)
     assert np.array_equal(pieces.time, whole.time)
     assert pieces.torque == pytest.approx(whole.torque, abs=2e-3 * np.abs(whole.torque).max())

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.laws import Law
+from armscope.motion.library.laws import Law
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, behind_its_drive, clinging, moved, robot

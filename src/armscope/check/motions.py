@@ -15,7 +15,7 @@ from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import doubts_about, refuse_other_joints
-from armscope.motion.timing import mended_rows
+from armscope.motion.samples.timing import mended_rows
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 

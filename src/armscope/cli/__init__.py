@@ -87,7 +87,7 @@ def print_schema(
 
     from armscope.core import config
     from armscope.motion import contract as motion_contract
-    from armscope.motion import model_file as motion_model_file
+    from armscope.motion.model import file as motion_model_file
     from armscope.physics import model_file
     from armscope.verdict import contract
 

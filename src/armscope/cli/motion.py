@@ -127,7 +127,7 @@ def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[st
     content = read_yaml(model)
     if not (isinstance(content, dict) and "motion" in str(content.get("format"))):
         return None  # what reads models of motions is slow to import
-    from armscope.motion.model_file import is_motion_model
+    from armscope.motion.model.file import is_motion_model
     from armscope.motion.predicting import predict_motions
 
     return predict_motions(model, motions) if is_motion_model(content) else None

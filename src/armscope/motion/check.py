@@ -13,7 +13,7 @@ from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
 
 if TYPE_CHECKING:
-    from armscope.motion.layout import TorqueLayout
+    from armscope.motion.library.layout import TorqueLayout
 
 
 def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:

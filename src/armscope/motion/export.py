@@ -15,11 +15,11 @@ import pinocchio as pin
 from armscope.core.files import write_table, write_text
 from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
-from armscope.motion.layout import OWN
-from armscope.motion.model import MotionModel
-from armscope.motion.model_file import save_motion_model
+from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.library.layout import OWN
+from armscope.motion.model.file import save_motion_model
+from armscope.motion.model.fitted import MotionModel
 from armscope.motion.pipeline import MotionDiagnosis
-from armscope.motion.selection import SelectedCauses
 from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP

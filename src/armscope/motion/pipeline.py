@@ -12,8 +12,18 @@ from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
 from armscope.motion.check import check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
-from armscope.motion.cutoff import chosen_cutoff
-from armscope.motion.holding_out import (
+from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
+from armscope.motion.fitting.selection import SelectedCauses, model_so_far, select_causes
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
+from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_links
+from armscope.motion.model.fitted import MotionModel, fitted_model
+from armscope.motion.samples.constants import FILTER
+from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.timing import Stretch, mended, stretches
+from armscope.motion.summary.holding_out import (
     Fold,
     HeldOutTorque,
     as_entered,
@@ -24,9 +34,9 @@ from armscope.motion.holding_out import (
     own_fold,
     waterfall,
 )
-from armscope.motion.identifiable import identifiable, little_excited
-from armscope.motion.intervals import Sureness, covariance_of, level_told, sureness
-from armscope.motion.judgement import (
+from armscope.motion.summary.identifiable import identifiable, little_excited
+from armscope.motion.summary.intervals import Sureness, covariance_of, level_told, sureness
+from armscope.motion.summary.judgement import (
     HeldOutErrors,
     answer_of,
     found_causes,
@@ -35,20 +45,10 @@ from armscope.motion.judgement import (
     lasting_words,
     unexplained,
 )
-from armscope.motion.lasting import lasting_torques
-from armscope.motion.late_friction import told_late
-from armscope.motion.layout import TorqueLayout
-from armscope.motion.library import place_causes
-from armscope.motion.model import MotionModel, fitted_model
-from armscope.motion.preparation import Preparation
-from armscope.motion.recorded_ranges import seen_in
-from armscope.motion.rows import MotionRows, build_rows, torque_of
-from armscope.motion.sampling_constants import FILTER
-from armscope.motion.selection import SelectedCauses, model_so_far, select_causes
-from armscope.motion.tenable import tenable
-from armscope.motion.timing import Stretch, mended, stretches
-from armscope.motion.torque_atlas import torque_atlas
-from armscope.motion.twist_judgement import JudgedTwist, judged_twists, with_links
+from armscope.motion.summary.lasting import lasting_torques
+from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.tenable import tenable
+from armscope.motion.summary.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm

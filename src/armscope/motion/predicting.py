@@ -11,9 +11,9 @@ import pandas as pd
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
-from armscope.motion.model import MotionModel, predicted_links, predicted_torque
-from armscope.motion.model_file import load_motion_model
-from armscope.motion.timing import Stretch, mended_rows, stretches
+from armscope.motion.model.file import load_motion_model
+from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
+from armscope.motion.samples.timing import Stretch, mended_rows, stretches
 from armscope.recordings.motions import Motions, read_motions, torque_columns
 
 WARM = ("warm speed", "warm side", "curve over temperature")

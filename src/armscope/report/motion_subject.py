@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.motion.holding_out import HeldOutTorque
 from armscope.motion.pipeline import MotionDiagnosis
+from armscope.motion.summary.holding_out import HeldOutTorque
 from armscope.motion.verdict import FoundCause, MotionVerdict
 from armscope.robot.dynamics import MovingArm
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.motion.laws import Law
-from armscope.motion.shapes import free_curve, friction_over_speed, limits_of
+from armscope.motion.library.laws import Law
+from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
 from armscope.report.colours import AFTER, BEFORE, INK, OUTLINE, QUIET
 from armscope.report.figures.along_joints import running_mean
 from armscope.report.figures.effect_curve import DrawnCurve, draw_curves

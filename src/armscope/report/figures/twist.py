@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.sampling import spread_evenly
-from armscope.motion.twist_judgement import JudgedTwist
+from armscope.motion.links.judgement import JudgedTwist
 from armscope.report.colours import AFTER, QUIET
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn

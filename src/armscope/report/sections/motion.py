@@ -11,7 +11,7 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
-from armscope.motion.clauses import amount
+from armscope.motion.library.clauses import amount
 from armscope.motion.verdict import JointBackground
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import atlas_map

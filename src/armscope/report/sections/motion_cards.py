@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from armscope.motion.catalogue import cause_named
-from armscope.motion.clauses import rms_of
+from armscope.motion.library.catalogue import cause_named
+from armscope.motion.library.clauses import rms_of
+from armscope.motion.summary.words import clause
 from armscope.motion.verdict import FoundCause
-from armscope.motion.words import clause
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter

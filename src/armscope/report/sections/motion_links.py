@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from armscope.core.numerals import size_of
-from armscope.motion.clauses import amount
+from armscope.motion.library.clauses import amount
 from armscope.motion.verdict import LinkSide
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sections.motion_cards import motion_card

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from armscope.motion.catalogue import cause_named
 from armscope.motion.export import URDF
+from armscope.motion.library.catalogue import cause_named
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject

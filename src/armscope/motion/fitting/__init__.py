@@ -1,0 +1,1 @@
+"""Rows, their weights, and rounds of selection until the names rest."""

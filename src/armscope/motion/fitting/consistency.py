@@ -1,0 +1,138 @@
+"""Whether different paths say the same of a cause: a size that holds on one path only is no physics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import Problem
+from armscope.motion.constants import CONSISTENCY
+from armscope.motion.fitting.selection import SelectedCauses, coefficients_of
+
+PARTS = "fifths of the motion"
+"""What blocks of a single run are; `NOISE.blocks_of_time` of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class PathAgreement:
+    """What the blocks say of one cause.
+
+    Attributes:
+        size: of each block that tells it, as a share of the size from all.
+        stderr: of these.
+        paths: whether blocks are runs; else they are parts of one run.
+        runs: the only runs in which the cause is there; empty for all.
+    """
+
+    size: Array
+    stderr: Array
+    paths: bool = True
+    runs: tuple[str, ...] = ()
+
+    @property
+    def tested(self) -> bool:
+        """Whether two blocks or more tell its size."""
+        return int(np.sum(self.stderr < CONSISTENCY.telling)) >= 2
+
+    @property
+    def consistent(self) -> bool | None:
+        """Whether the telling blocks agree in sign and, roughly, in size; None where they don't tell."""
+        if not self.tested:
+            return None
+        telling = self.stderr < CONSISTENCY.telling
+        size, spread = self.size[telling], np.maximum(self.stderr[telling], CONSISTENCY.tolerance)
+        return bool(np.all(np.abs(size - 1) < CONSISTENCY.widths * spread))
+
+    @property
+    def undetermined(self) -> bool:
+        """Whether nothing but all of the motion together tells a size that every part of it should have."""
+        return not self.tested and not self.runs
+
+    @property
+    def words(self) -> str:
+        """In a sentence."""
+        if self.runs:
+            return f"it is there in run {', '.join(self.runs)} only: no other path tells its size"
+        if not self.tested:
+            return f"by themselves, no two {'paths' if self.paths else PARTS} tell its size"
+        telling = self.stderr < CONSISTENCY.telling
+        shares = ", ".join(f"{100 * share:.0f}" for share in self.size[telling])
+        if self.paths:
+            return f"by itself, each path gives {shares} % of the size from all"
+        return f"by themselves, {PARTS} give {shares} % of the size from all; no other path was recorded"
+
+
+def agreement(selected: SelectedCauses, candidate: int) -> PathAgreement:
+    """A cause's size from each block by itself: the factor on its fitted columns, all else fitted anew there.
+
+    Args:
+        selected: the selection.
+        candidate: number of the cause's candidate.
+
+    Returns:
+        The factors with their standard errors.
+    """
+    paths = len(set(selected.rows.run.tolist())) > 1
+    return replace(agreement_of(selected, paths, candidate), runs=selected.rows.layout.placed[candidate].runs)
+
+
+class Weighed(Protocol):
+    """A selection, of torques or of positions: sums by block, what competed, and what won."""
+
+    @property
+    def blocks(self) -> list[NormalEquations]:
+        """Sums of each block."""
+
+    @property
+    def problem(self) -> Problem:
+        """What competed, on their total."""
+
+    @property
+    def best(self) -> Hypothesis:
+        """What won."""
+
+
+def agreement_of(selected: Weighed, paths: bool, candidate: int) -> PathAgreement:
+    """A candidate's size from each block by itself.
+
+    Args:
+        selected: a selection.
+        paths: whether blocks are runs; else they are parts of one.
+        candidate: its number.
+
+    Returns:
+        The factors with their standard errors.
+    """
+    best, problem = selected.best, selected.problem
+    columns = problem.space.candidates[candidate].columns
+    own = coefficients_of(problem, best)[columns] * problem.scale[columns]
+    others = np.setdiff1d(best.columns, columns)
+    precision = best.noise**2 / best.variance[best.at(others)]
+    mean = best.means(others)
+    sizes, errors = [], []
+    for block in selected.blocks:
+        size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
+        sizes.append(size)
+        errors.append(error)
+    return PathAgreement(np.array(sizes), np.array(errors), paths)
+
+
+def _factor(
+    block: NormalEquations, columns: Indices, own: Array, others: Indices, held: tuple[Array, Array], noise: float
+) -> tuple[float, float]:
+    """Of one block; what else is in the model is held near what all blocks together say of it, by its prior."""
+    precision, mean = held
+    G = block.G[np.ix_(others, others)] + np.diag(precision)
+    cross = block.G[np.ix_(others, columns)] @ own
+    right = block.b[others] + precision * mean
+    solved = np.linalg.solve(G + 1e-12 * np.diag(np.diag(G)), np.column_stack([cross, right]))
+    power = own @ block.G[np.ix_(columns, columns)] @ own - cross @ solved[:, 0]
+    pull = own @ block.b[columns] - cross @ solved[:, 1]
+    if power <= 1e-12 * max(float(own @ block.G[np.ix_(columns, columns)] @ own), 1e-300):
+        return 0.0, np.inf
+    return float(pull / power), float(noise / np.sqrt(power))

@@ -1,0 +1,99 @@
+"""The cut-off of the low-pass, from spectra: where the model stops explaining more of the torque than it leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.signal import welch
+
+from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
+from armscope.motion.fitting.first_look import FirstLook, first_look
+from armscope.motion.samples.constants import CUTOFF, FILTER
+from armscope.motion.samples.preparation import Preparation, preparation, thinned
+from armscope.motion.samples.timing import Stretch
+from armscope.robot.dynamics import MovingArm
+
+
+def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
+    """How samples become rows, with the cut-off that was asked for or the one that the spectra give.
+
+    Of the longest motion of all joints, friction, rotors, masses and ripple are fitted at a generous cut-off; of their
+    torque and of what it leaves, the spectra are taken. Above the frequency where what is left is as large, samples
+    hold noise.
+
+    Args:
+        arm: the arm.
+        stretches: even samples, ``effort`` in N m.
+        asked: Hz; None where it is to be chosen.
+
+    Returns:
+        The filters and the decimation; what the fit tells besides.
+    """
+    how, first = _chosen(arm, stretches, asked)
+    return _resolved(how, sum(map(len, stretches)), asked), first
+
+
+def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparation:
+    """With as many rows as may be kept, and a cut-off that they resolve.
+
+    Rows farther apart than the filter asks for leave out what lies between them, and slopes over them mean nothing; a
+    lower cut-off takes it in. What the motion itself reaches stays below the cut-off.
+    """
+    kept = thinned(how, samples)
+    if asked is not None or kept.every == how.every:
+        return kept
+    least = max(CUTOFF.least_hz, how.position_cutoff / CUTOFF.beyond_motion)
+    lower, source = how, "what as many rows as are kept resolve"
+    for every in range(kept.every, 3 * kept.every):  # steps of the model's own stride are skipped
+        cutoff = float(f"{max(how.rate / (FILTER.rows_per_cutoff * every), least):.3g}")
+        lower = preparation(how.rate, min(cutoff, how.cutoff), source, how.position_cutoff)
+        if cutoff <= least or lower.every * FILTER.most_rows >= samples:
+            break
+    return thinned(lower, samples) if lower.cutoff < how.cutoff else kept
+
+
+def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
+    rate = stretches[0].rate
+    longest = max(stretches, key=lambda stretch: (np.sum(np.ptp(stretch.q, axis=0) > LIBRARY.still_rad), len(stretch)))
+    moving = _position_cutoff(longest)
+    generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
+    first = first_look(arm, longest, generous)
+    if asked is not None:
+        return preparation(rate, asked, "as asked", moving), first
+    if len(first.left) < CUTOFF.window:
+        source = "a share of the sampling rate: the motion is short"
+        return preparation(rate, CUTOFF.fallback * rate, source, moving), first
+    crossing = _crossing(first, rate / generous.every)
+    cutoff = float(np.clip(crossing, CUTOFF.least_hz, generous.cutoff))
+    source = "where the model explains as much as it leaves"
+    return preparation(rate, float(f"{cutoff:.2g}"), source, moving), first
+
+
+def _position_cutoff(stretch: Stretch) -> float:
+    """Hz above which positions hold noise only: where their spectrum comes down to that of the highest frequencies."""
+    size = min(len(stretch) - 2, CUTOFF.window)
+    bends = np.diff(stretch.q, n=2, axis=0)  # differences, so that a slow motion does not leak into all frequencies
+    frequency, power = welch(bends, stretch.rate, nperseg=size, axis=0)
+    power = power[1:] / (2 * np.sin(np.pi * frequency[1:, None] / stretch.rate)) ** 4
+    floor = np.median(power[-len(power) // 4 :], axis=0)
+    moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
+    return CUTOFF.beyond_motion * float(frequency[1 + moving[-1]]) if len(moving) else np.inf
+
+
+def _crossing(first: FirstLook, rate: float) -> float:
+    """Hz up to which the model's torque has more power than what it leaves, at the joint that shows it furthest.
+
+    A joint that shows it less far counts by its own noise: what is beyond its crossing does it no harm.
+    """
+    frequency, explained = welch(first.modelled, rate, nperseg=CUTOFF.window, axis=0)
+    _, remains = welch(first.left, rate, nperseg=CUTOFF.window, axis=0)
+    return max(_drowned(frequency, *powers) for powers in zip(explained.T, remains.T, strict=True))
+
+
+def _drowned(frequency: Array, explained: Array, remains: Array) -> float:
+    drowned = explained < CUTOFF.drowned * remains
+    peak = int(np.argmax(explained))
+    several = np.convolve(drowned[peak:], np.ones(CUTOFF.bins), mode="valid") == CUTOFF.bins
+    return float(frequency[peak + int(np.argmax(several))]) if several.any() else float(frequency[-1])

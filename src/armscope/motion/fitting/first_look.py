@@ -1,0 +1,83 @@
+"""What a plain fit of one motion tells before anything is weighed: the torque so far, and waves in what it leaves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
+from armscope.motion.fitting.rows import build_rows
+from armscope.motion.fitting.selection import model_so_far
+from armscope.motion.fitting.so_far import SoFar, stated_model
+from armscope.motion.fitting.weights import fitted_together
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.samples.preparation import Preparation, parts
+from armscope.motion.samples.timing import Stretch
+from armscope.robot.dynamics import MovingArm
+
+Waves = dict[int, tuple[tuple[int, ...], int]]
+
+
+@dataclass(frozen=True, eq=False)
+class FirstLook:
+    """Attributes:
+    model: friction, rotors and masses, each as free as the others: what delay, gain and load follow at first.
+    waves: by joint (from 0): how many per turn stand out of what it leaves, and how many were tried.
+    modelled, left: (K, m) torque that the model and those waves explain, and what they leave, N m.
+    """
+
+    model: SoFar
+    waves: Waves
+    modelled: Array
+    left: Array
+
+
+def first_look(arm: MovingArm, stretch: Stretch, how: Preparation) -> FirstLook:
+    """A fit of one stretch.
+
+    Args:
+        arm: the arm.
+        stretch: even samples, ``effort`` in N m.
+        how: filters and decimation.
+
+    Returns:
+        What it tells.
+    """
+    layout = TorqueLayout(arm, (), False)
+    rows = build_rows(layout, [stretch], how, stated_model(arm))
+    coefficients = fitted_together(rows, np.arange(layout.width))
+    modelled = rows.nominal + rows.modelled(coefficients)
+    waves: Waves = {}
+    for j in np.flatnonzero(~arm.sliding):
+        left = np.where(rows.still[:, j], 0.0, rows.torque[:, j] - modelled[:, j])
+        waves[int(j)], rippled = _waves(stretch, how, int(j), left)
+        modelled[:, j] += rippled
+    model = replace(model_so_far(layout, coefficients), of_bodies=False)
+    return FirstLook(model, waves, modelled, rows.torque - modelled)
+
+
+def _waves(stretch: Stretch, how: Preparation, j: int, left: Array) -> tuple[tuple[tuple[int, ...], int], Array]:
+    """The counts whose waves explain most, each more than the counts beside it; how many were tried; their torque."""
+    speed = np.percentile(np.abs(np.diff(stretch.q[:, j])), 90) * stretch.rate / (2 * np.pi)
+    most = min(LIBRARY.most_waves, int(how.cutoff / max(speed, 1e-9)))
+    least = max(2, int(np.ceil(LIBRARY.least_waves * 2 * np.pi / max(float(np.ptp(stretch.q[:, j])), 1e-9))))
+    counts = np.arange(least, most + 1)
+    if not len(counts):
+        return ((), 1), np.zeros(len(left))
+    made = []
+    for signals in parts([stretch], how):
+        turned = signals.q[:, j, None] * counts
+        made.append(how.low_passed(np.stack([np.sin(turned), np.cos(turned)], axis=2), signals.kept, signals.stride))
+    waves = np.concatenate(made)
+    explained = np.zeros(len(counts))
+    for number in range(len(counts)):
+        wave = waves[:, number]
+        explained[number] = (wave.T @ left) @ np.linalg.lstsq(wave, left, rcond=None)[0]
+    beside = np.r_[-np.inf, explained, -np.inf]
+    peaks = np.flatnonzero((explained >= beside[:-2]) & (explained >= beside[2:]))
+    best = np.sort(peaks[np.argsort(-explained[peaks])][: LIBRARY.waves_kept])
+    kept = waves[:, best].reshape(len(waves), -1)
+    found = tuple(int(n) for n in counts[best])
+    return (found, len(counts)), kept @ np.linalg.lstsq(kept, left, rcond=None)[0]

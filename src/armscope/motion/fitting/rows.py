@@ -1,0 +1,279 @@
+"""Rows of torque and model: every column formed at full rate, filtered as the torque is, and kept every n-th time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices, Progress, unheard
+from armscope.motion.fitting.so_far import SoFar
+from armscope.motion.library.causes import Moment
+from armscope.motion.library.dry_friction import DryFriction, own_columns
+from armscope.motion.library.laws import FOLLOWS_MODEL, Law
+from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.samples.constants import FILTER
+from armscope.motion.samples.preparation import Preparation, Signals, parts
+from armscope.motion.samples.timing import Stretch
+from armscope.robot.bodies import Bodies
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class MotionRows:
+    """K rows of m joints.
+
+    Attributes:
+        layout: of the columns.
+        time, run, stretch: (K,) of each row.
+        q, dq: (K, m) positions, velocities.
+        torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for.
+        still: (K, m) where a joint stands, and its friction may be anything.
+        columns, at: of each joint (K, p_j), and (p_j,) where these columns stand.
+        gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
+            is true torque is recorded. A gain's own column is the stated torque, so that
+            (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
+    """
+
+    layout: TorqueLayout
+    time: Array
+    run: NDArray[np.str_]
+    stretch: Indices
+    q: Array
+    dq: Array
+    torque: Array
+    nominal: Array
+    still: NDArray[np.bool_]
+    columns: tuple[NDArray[np.float32], ...]
+    at: tuple[Indices, ...]
+    gain: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def modelled(self, coefficients: Array, which: Indices | slice = slice(None)) -> Array:
+        """(K, m) torque that coefficients (p,) add to the nominal one, in all rows or some."""
+        index, shares = self.layout.made_of_masses
+        whole = coefficients.copy()
+        whole[self.layout.inertial] += shares @ coefficients[index]
+        found = np.column_stack([self._at(j, whole, which) for j in range(len(self.columns))])
+        if not self.layout.differs_by_run:
+            return found
+        run = self.run[which]
+        for name in np.unique(run):
+            there = np.flatnonzero(run == name)
+            lacking = np.zeros(len(coefficients))
+            lacking[self.layout.inertial] = (shares - self.layout.shares_in(str(name))) @ coefficients[index]
+            if np.any(lacking):
+                rows = np.arange(len(self))[which][there]
+                found[there] -= np.column_stack([self._at(j, lacking, rows) for j in range(len(self.columns))])
+        return found
+
+    def _at(self, joint: int, whole: Array, which: Indices | slice) -> Array:
+        """(K,) of one joint; ``whole``: coefficients (p,) with combinations of masses counted in."""
+        at = self.at[joint]
+        used = np.flatnonzero(whole[at])
+        recorded = (self.gain_of_columns(joint) * whole[at])[used].astype(np.float32)
+        return (self.columns[joint][which][:, used] @ recorded).astype(np.float64)
+
+    def gain_of_columns(self, joint: int) -> Array:
+        """(p_j,) by which each column of a joint is recorded: 1 of what is no true torque."""
+        return np.where(np.isin(self.at[joint], self.layout.of_readings), 1.0, self.gain[joint])
+
+
+def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
+    """Motor torque from what was recorded.
+
+    Args:
+        arm: its gains.
+        stretch_effort: (N, m) N m (N) or A.
+        kind: "torque" or "current".
+
+    Returns:
+        (N, m) N m (N).
+    """
+    return stretch_effort * np.where(np.isnan(arm.gains), 1.0, arm.gains) if kind == "current" else stretch_effort
+
+
+def build_rows(
+    layout: TorqueLayout,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    model: SoFar,
+    progress: Progress = unheard,
+    before: MotionRows | None = None,
+) -> MotionRows:
+    """All rows of a table.
+
+    Args:
+        layout: of the columns.
+        stretches: even samples, ``effort`` in N m.
+        how: filters and decimation.
+        model: of which load, delay and gain are functions.
+        progress: hears how far it is.
+        before: the same rows for another model, whose columns stay where they don't follow it; scanned numbers may
+            differ.
+
+    Returns:
+        The rows, in the order of the stretches.
+    """
+    pieces, done, total = [], 0, sum(len(stretch) for stretch in stretches)
+    fresh = range(len(layout.placed)) if before is None else _following(layout, before.layout)
+    for signals in parts(stretches, how):
+        piece = _Piece(layout, signals, how, model, before is None)
+        pieces.append(piece.rows(fresh))
+        done += len(signals.kept) * how.every
+        progress("forming the model's columns", min(done / total, 1.0))
+    return _joined(layout, pieces) if before is None else _renewed(layout, before, pieces)
+
+
+def _following(layout: TorqueLayout, before: TorqueLayout) -> list[int]:
+    """Numbers of the causes whose columns another model changes, or another scanned number."""
+    return [
+        number
+        for number, (cause, old) in enumerate(zip(layout.placed, before.placed, strict=True))
+        if cause is not old or (isinstance(cause.columns, Law) and cause.columns.kind in FOLLOWS_MODEL)
+    ]
+
+
+def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
+    whole = {
+        name: np.concatenate([getattr(piece, name) for piece in pieces])
+        for name in ("time", "run", "stretch", "q", "dq", "torque", "nominal", "still")
+    }
+    at, columns = pieces[0].at, []
+    for j in range(len(at)):
+        columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
+    return MotionRows(layout, columns=tuple(columns), at=at, gain=pieces[0].gain, **whole)
+
+
+def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
+    columns = []
+    for j, (old, at) in enumerate(zip(before.columns, before.at, strict=True)):
+        fresh, where = old.copy(), np.searchsorted(at, pieces[0].at[j])
+        fresh[:, where] = np.concatenate([piece.columns[j] for piece in pieces])
+        columns.append(fresh)
+    return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain)
+
+
+class _Piece:
+    """Some samples, with what the model says of them, on the way to rows."""
+
+    def __init__(self, layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar, first: bool) -> None:
+        self.layout, self.signals, self.how = layout, signals, how
+        self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain
+        arm = self.arm = layout.arm
+        motion = signals.of_links
+        self.regressor = arm.regressor(*motion) if first else None
+        self.background = own_columns(arm, signals, model.delay)
+        inertial = model.inertial_in(signals.run)
+        rigid = self._rigid(inertial)
+        self.carried: Array | float = 0.0
+        if signals.payload is not None:
+            load = arm.point_load()
+            of_load = arm.torques(*motion, inertial + load) - rigid if self.regressor is None else self.regressor @ load
+            self.carried = signals.payload[:, None] * of_load
+        rigid = rigid + self.carried
+        friction, stated = self._friction(model.background), self._rigid(arm.inertial) + self.carried
+        gravity = None
+        if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
+            gravity = np.stack([arm.gravity_torques(motion[0], axis) for axis in np.eye(3)], axis=2)
+        bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
+        dry = DryFriction.of(arm, model.background[:, 1])
+        rate = how.rate / signals.stride
+        moment = Moment(
+            signals=signals,
+            rigid=rigid,
+            predicted=rigid + friction,
+            gravity=gravity,
+            rate=rate,
+            bodies=bodies,
+            dry=dry,
+            stated=stated,
+            bare=stated + friction,
+            read=stated + self._friction(np.nan_to_num(arm.stated_background)),
+        )
+        self.moment = model.with_laws(moment)
+        self.rounded = dry.rounded(signals, self.moment.predicted, model.delay, rate)
+
+    def _friction(self, numbers: Array) -> Array:
+        """(N, m) torque of offset, friction and rotor (m, 4) of each joint."""
+        return np.asarray(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], numbers))
+
+    def _rigid(self, inertial: Array) -> Array:
+        """(N, m) torque that inertial parameters ask for."""
+        if self.regressor is not None:
+            return np.asarray(self.regressor @ inertial)
+        return self.arm.torques(*self.signals.of_links, inertial)
+
+    def low(self, values: Array) -> Array:
+        """The rows of samples."""
+        return self.how.low_passed(values, self.signals.kept, self.signals.stride)
+
+    def rows(self, causes: Iterable[int]) -> MotionRows:
+        """Rows with the columns of some causes; with the inertial ones where these were formed."""
+        layout, signals, kept, m = self.layout, self.signals, self.signals.kept, self.layout.arm.n_motors
+        own = self._own_columns(causes)
+        columns, at = [], []
+        regressor = None if self.regressor is None else self.low(self.regressor)
+        for j in range(m):
+            of_joint, where = own[j]
+            gain = [self.moment.read[:, j]] if layout.with_gains and self.moment.read is not None else []
+            made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, self.rounded[:, j]]))]
+            index = [OWN * j + np.arange(OWN), *where, layout.gains[j : j + 1] if gain else layout.gains]
+            index.append(layout.response)
+            if regressor is not None:
+                made.append(regressor[:, j] * layout.inertial_scale)
+                index.append(layout.inertial)
+            order = np.argsort(np.concatenate(index))
+            columns.append(np.hstack(made)[:, order].astype(np.float32))
+            at.append(np.concatenate(index)[order])
+        return MotionRows(
+            layout=layout,
+            time=signals.time[kept],
+            run=np.full(len(kept), signals.run),
+            stretch=np.full(len(kept), signals.stretch),
+            q=signals.q[kept],
+            dq=signals.dq[kept],
+            torque=signals.effort,
+            nominal=np.zeros((len(kept), m)) if regressor is None else self._nominal(regressor),
+            still=_still(layout.arm, signals, self.moment.rate)[kept],
+            columns=tuple(columns),
+            at=tuple(at),
+            gain=self.gain,
+        )
+
+    def _nominal(self, regressor: Array) -> Array:
+        stated = np.nan_to_num(self.arm.stated_background)
+        nominal = regressor @ self.arm.inertial
+        if np.any(stated):
+            nominal += self.low(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], stated))
+        return nominal if self.signals.payload is None else nominal + self.low(np.asarray(self.carried))
+
+    def _own_columns(self, causes: Iterable[int]) -> list[tuple[list[Array], list[Indices]]]:
+        """By joint: columns (N, c) of causes, and where they stand."""
+        own: list[tuple[list[Array], list[Indices]]] = [([], []) for _ in range(self.arm.n_motors)]
+        for number in causes:
+            cause, index = self.layout.placed[number], self.layout.columns[number]
+            if cause.columns is not None:
+                values = cause.columns(self.moment)
+                for n, joint in enumerate(cause.joints):
+                    own[joint][0].append(values[:, n])
+                    own[joint][1].append(index)
+        return own
+
+
+def _still(arm: MovingArm, signals: Signals, rate: float) -> NDArray[np.bool_]:
+    """Where a joint is slow for longer than it takes to turn back."""
+    width = FILTER.still * np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)
+    slow = np.abs(signals.dq) < width
+    length = max(int(FILTER.still_s * rate), 1)
+    total = np.cumsum(np.vstack([np.zeros(arm.n_motors), slow]), axis=0)
+    stood = np.zeros_like(slow)
+    if len(slow) > length:
+        whole = (total[length:] - total[:-length]) == length  # windows that are slow all through
+        for shift in (0, length // 2, length - 1):
+            stood[shift : shift + len(whole)] |= whole
+    return np.asarray(stood & slow)

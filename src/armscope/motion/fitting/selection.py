@@ -1,0 +1,270 @@
+"""Rounds of rows, noise and selection, until the names rest."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array, Indices, Progress
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import ModelSpace
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
+from armscope.inference.search import Search
+from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.fitting.refining import refined
+from armscope.motion.fitting.rows import MotionRows, build_rows
+from armscope.motion.fitting.so_far import SoFar, stated_model
+from armscope.motion.fitting.space import build_space
+from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
+from armscope.motion.fitting.torque_delay import Between
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_apart, left_elsewhere, weighed
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.laws import follows_motion
+from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.timing import Stretch
+
+
+@dataclass(frozen=True, eq=False)
+class SelectedCauses:
+    """A finished selection.
+
+    Attributes:
+        rows, weights: the rows, and how much they count.
+        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
+        space, problem, best: what competed, on which sums, and what won.
+    """
+
+    rows: MotionRows
+    weights: TorqueWeights
+    block: Indices
+    blocks: list[NormalEquations]
+    by_joint: list[list[JointSums]]
+    space: ModelSpace
+    problem: Problem
+    best: Hypothesis
+
+    @property
+    def coefficients(self) -> Array:
+        """(p,) of all columns, SI."""
+        return coefficients_of(self.problem, self.best)
+
+    @property
+    def residuals(self) -> Array:
+        """(K, m) N m that the model leaves."""
+        return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
+
+    @property
+    def noise(self) -> TorqueWeights:
+        """How much rows count by what the model leaves of them, as part of the fit and apart from it."""
+        blocks = dict(enumerate(self.blocks))
+        apart = left_elsewhere(self.rows, self.block, blocks, self.problem, self.best) if len(blocks) > 1 else None
+        return estimate_weights(self.rows, self.residuals, apart)
+
+
+def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
+    """(p,) posterior means, SI."""
+    return np.asarray(hypothesis.coefficients(len(problem.scale)) / problem.scale)
+
+
+def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
+    """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
+    inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
+    delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
+    laws: list[tuple[PlacedCause, Array]] = []
+    for cause, columns in zip(layout.placed, layout.columns, strict=True):
+        if cause.inertial is not None and not cause.runs:
+            inertial = inertial + cause.inertial @ coefficients[columns]
+        elif cause.inertial is not None and np.any(coefficients[columns]):
+            for run in cause.runs:
+                of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
+        elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
+            laws.append((cause, coefficients[columns]))
+        if cause.cause is catalogue.DELAY:
+            delay[cause.joints[0]] += coefficients[columns[0]]
+    own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
+    background = np.nan_to_num(layout.arm.stated_background) + own
+    return SoFar(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
+
+
+def gain_of(layout: TorqueLayout, coefficients: Array) -> Array:
+    """(m,) times the true torque that is recorded of each joint."""
+    gain = np.ones(layout.arm.n_motors)
+    for joint, column in layout.scaling:
+        gain[joint] += coefficients[column]
+    return np.clip(gain, 1 / PRIOR.largest_gain, PRIOR.largest_gain)
+
+
+def select_causes(
+    layout: TorqueLayout,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    block_of: Sequence[str],
+    progress: Progress,
+    model: SoFar | None = None,
+) -> SelectedCauses:
+    """The causes that the evidence asks for.
+
+    Args:
+        layout: of the columns.
+        stretches: even samples, ``effort`` in N m.
+        how: filters and decimation.
+        block_of: what rows are blocked by: names of the runs; one name or none for blocks of time.
+        progress: hears what is being done.
+        model: what load, delay and gain follow at first; the stated one where there is none.
+
+    Returns:
+        The selection; the numbers in its layout that were scanned are those at which they rest.
+    """
+    model = model or stated_model(layout.arm)
+    selected: SelectedCauses | None = None
+    most, between = NOISE.rounds + NOISE.refinings, Between()
+    for number in range(most):
+        share = number / most
+        before = None if selected is None else selected.rows
+        rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share), before)
+        block = blocks_of(rows.run, block_of)
+        space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
+        progress("weighing causes", share + 0.15)
+        if selected is None:
+            selected = chosen(rows, _start(rows), block, space)
+            found, last = None, (selected.best, selected.best.chosen)
+            weights = selected.noise
+        else:
+            found, last = selected.best.candidates, (selected.best, selected.best.chosen)
+            weights = selected.noise
+        selected = at_own_gain(chosen(rows, weights, block, space, last, selected))
+        finer = refined(selected, between)
+        if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
+            break
+        model = model_so_far(layout, selected.coefficients)
+        layout = finer or layout
+    assert selected is not None
+    return selected
+
+
+def at_own_gain(selected: SelectedCauses) -> SelectedCauses:
+    """The same causes, with what is true torque recorded by the gains that are fitted."""
+    for _ in range(NOISE.refinings):
+        rows = selected.rows
+        gain = gain_of(rows.layout, selected.coefficients)
+        if np.allclose(gain, rows.gain, rtol=0.0, atol=NOISE.same_gain):
+            break
+        selected = weighed_anew(replace(rows, gain=gain), selected)
+    return selected
+
+
+def _within(progress: Progress, start: float, text: str, done: float) -> None:
+    progress(text, start + 0.1 * done)
+
+
+def chosen(
+    rows: MotionRows,
+    weights: TorqueWeights,
+    block: Indices,
+    space: ModelSpace,
+    before: tuple[Hypothesis, Sequence[SelectedEffect]] | None = None,
+    earlier: SelectedCauses | None = None,
+) -> SelectedCauses:
+    """The selection at given weights.
+
+    Args:
+        rows: K rows.
+        weights: how much they count.
+        block: (K,) number of each row's block.
+        space: what competes.
+        before: a hypothesis found on much the same sums, and those of its effects to start from.
+        earlier: a selection on the same rows and blocks, whose columns may be other functions.
+
+    Returns:
+        What won.
+    """
+    by_joint, blocks, problem = _summed(rows, weights, block, space, earlier)
+    search = Search.on(problem)
+    if before is None:
+        best = search.best()
+    else:
+        found, effects = before
+        best = search.best((), also=search.evaluated(effects, found))
+    best = _settled(search, named_first(search, best))
+    return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
+
+
+def weighed_anew(rows: MotionRows, earlier: SelectedCauses) -> SelectedCauses:
+    """A selection's effects, none else, on the same rows whose columns may be other functions."""
+    by_joint, blocks, problem = _summed(rows, earlier.weights, earlier.block, earlier.space, earlier)
+    best = Search.on(problem).evaluated(earlier.best.chosen, earlier.best)
+    return SelectedCauses(rows, earlier.weights, earlier.block, blocks, by_joint, earlier.space, problem, best)
+
+
+def _summed(
+    rows: MotionRows, weights: TorqueWeights, block: Indices, space: ModelSpace, earlier: SelectedCauses | None
+) -> tuple[list[list[JointSums]], list[NormalEquations], Problem]:
+    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
+    by_joint = sums_by_joint(rows, weights.row, block, known)
+    blocks = [weighed(rows, parts, weights) for parts in by_joint]
+    return by_joint, blocks, build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
+
+
+def _start(rows: MotionRows) -> TorqueWeights:
+    """Weights from what friction, rotors and masses leave, or they and all causes at once.
+
+    At each joint the one that leaves less of motion that it was not fitted to: with all causes a short motion would
+    have no noise left, and without them a slow cause would count as noise that lasts.
+    """
+    ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
+    left = left_apart(rows, (ordinary, np.arange(rows.layout.width)))
+    less = np.argmin(np.median(np.abs(left), axis=1), axis=0)
+    return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
+
+
+def blocks_of(rows: NDArray[np.str_], runs: Sequence[str]) -> Indices:
+    """Numbers of blocks: runs, or parts of the time where there is one run only.
+
+    Args:
+        rows: (K,) name of each row's run.
+        runs: their names, in the order of their numbers.
+
+    Returns:
+        (K,) of each row.
+    """
+    if len(runs) > 1:
+        return np.asarray([list(runs).index(str(run)) for run in rows], dtype=np.intp)
+    return np.minimum(np.arange(len(rows)) * NOISE.blocks_of_time // len(rows), NOISE.blocks_of_time - 1)
+
+
+def _settled(search: Search, best: Hypothesis) -> Hypothesis:
+    """Without what is not worth its price beside the others."""
+    while (weak := search.weakest(best)) is not None:
+        best = search.without(best, [weak.candidate])
+    return best
+
+
+def named_first(search: Search, best: Hypothesis) -> Hypothesis:
+    """Names in place of a free curve wherever they explain nearly all that it does; its rest may stay beside them.
+
+    A curve fits every little thing about a real joint; that is no reason not to say what most of it is.
+    """
+    for effect in best.chosen:
+        candidate = search.candidate(effect.candidate)
+        if not candidate.is_curve or not candidate.special_cases or effect not in best.chosen:
+            continue
+        base = search.without(best, [effect.candidate])
+        named = base
+        for _ in range(NOISE.names_for_a_curve):
+            others = set(range(len(search.space.candidates))) - candidate.special_cases
+            better = search.additions(named, 1, others)
+            if not better or better[0].log_posterior <= named.log_posterior:
+                break
+            named = better[0]
+        worth = best.log_posterior - base.log_posterior
+        if named.log_posterior - base.log_posterior > NOISE.nearly_all * worth:
+            both = search.evaluated((*named.chosen, effect), named)
+            best = max(named, both, key=lambda hypothesis: hypothesis.log_posterior)
+    return best

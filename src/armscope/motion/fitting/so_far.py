@@ -1,0 +1,54 @@
+"""The model so far, of which further columns are functions: loads, delays, gains follow it from round to round."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.library.causes import Moment, PlacedCause
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class SoFar:
+    """The model so far, of which further columns are functions.
+
+    Attributes:
+        inertial: (10 n,) inertial parameters.
+        background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
+        delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
+        of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
+        of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
+        laws: causes of one joint that follow the motion alone, with their numbers: a delay is theirs, too.
+        gain: (m,) by which recorded torque exceeds the true one; None: by nothing.
+    """
+
+    inertial: Array
+    background: Array
+    delay: Array
+    of_runs: Mapping[str, Array] = field(default_factory=dict)
+    of_bodies: bool = True
+    laws: tuple[tuple[PlacedCause, Array], ...] = ()
+    gain: Array | None = None
+
+    def inertial_in(self, run: str) -> Array:
+        """(10 n,) inertial parameters in a run."""
+        return self.inertial + self.of_runs.get(run, 0.0)
+
+    def with_laws(self, moment: Moment) -> Moment:
+        """What is predicted, with the torque of the laws."""
+        if not self.laws:
+            return moment
+        predicted = moment.predicted.copy()
+        for placed, values in self.laws:
+            assert placed.columns is not None
+            predicted[:, list(placed.joints)] += placed.columns(moment) @ values
+        return replace(moment, predicted=predicted)
+
+
+def stated_model(arm: MovingArm) -> SoFar:
+    """What robot.yaml states."""
+    return SoFar(arm.inertial, np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors))

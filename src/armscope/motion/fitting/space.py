@@ -1,0 +1,141 @@
+"""The library as the inference sees it: causes as sets of columns, and masses and gains as joint_backgrounds."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
+from armscope.motion.constants import PRIOR
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Cause, PlacedCause
+from armscope.motion.library.laws import is_of_a_gain
+from armscope.motion.library.layout import TorqueLayout
+
+
+def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozenset[int] = frozenset()) -> ModelSpace:
+    """What may take part in the diagnosis of a motion.
+
+    Offset, friction and rotor inertia of every joint are always free; inertial parameters are held near the stated ones
+    by a share that competes, gains by their stated uncertainty.
+
+    Args:
+        layout: of the columns.
+        torque: (m,) RMS torque of each joint.
+        rate: samples per second.
+        barred: numbers of causes that can't stand.
+
+    Returns:
+        Columns, priors, and what excludes what.
+    """
+    shares = PRIOR.inertial_shares
+    shape = torque[:, None] * [PRIOR.reversal, PRIOR.turning_s]
+    reversals = ToleranceFamily("reversals", layout.reversals.ravel(), shape.ravel(), PRIOR.reversal_sizes)
+    families: list[BackgroundFamily] = [
+        ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),
+        reversals,
+        ToleranceFamily("response", layout.response, np.array([PRIOR.response / rate**2]), (0.0, 1.0)),
+    ]
+    starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
+    if layout.with_gains:
+        stated = layout.arm.gain_uncertainty
+        sigma = np.where(np.isnan(stated), PRIOR.gain, stated)
+        families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
+        starts = [(*start, 1) for start in starts]
+    return ModelSpace(
+        frames=layout.frames, families=tuple(families), candidates=_candidates(layout, barred), starts=tuple(starts)
+    )
+
+
+def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate, ...]:
+    placed = layout.placed
+    beside: dict[str, list[int]] = {}
+    for number, cause in enumerate(placed):
+        beside.setdefault(cause.location, []).append(number)
+    candidates = []
+    for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
+        excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
+        candidates.append(
+            Candidate(
+                kind=cause.cause.name,
+                location=cause.location,
+                columns=columns,
+                prior_scale=np.array(cause.expected or np.ones(cause.width)),
+                variant=cause.variant,
+                driver=cause.driver,
+                label=str(cause),
+                family=cause.cause.family,
+                region=region_of(cause),
+                plausible=_plausible(cause),
+                multiplicity=cause.multiplicity,
+                nonnegative=cause.cause.nonnegative and cause.width == 1,
+                is_curve=cause.is_curve,
+                competes=number not in barred,
+                excludes=excludes,
+                special_cases=frozenset(n for n in excludes - barred if cause.is_curve and not placed[n].is_curve),
+                side_by_side=2,
+            )
+        )
+    return tuple(candidates)
+
+
+def _plausible(cause: PlacedCause) -> Array | None:
+    """How far a gain may be off; of other causes anything is plausible.
+
+    Where masses are far off and a joint carries little, a gain of thirty would be one more column of these masses.
+    """
+    if not is_of_a_gain(cause.columns):
+        return None
+    return np.array([PRIOR.unsure_gain, *[np.inf] * (cause.width - 1)])
+
+
+def region_of(cause: PlacedCause) -> str:
+    """Coarser than the place: the joint's number, or the place itself."""
+    words = cause.location.split()
+    return words[1] if words[0] in ("joint", "link") else cause.location
+
+
+CONTAINED = {
+    "speed": (
+        catalogue.ASYMMETRY,
+        catalogue.STRIBECK,
+        catalogue.VISCOUS_CURVE,
+        catalogue.VISCOUS,
+        catalogue.COULOMB,
+        catalogue.OFFSET,
+    ),
+    "joint angle": (catalogue.BALANCER, catalogue.RIPPLE, catalogue.OFFSET),
+    "load": (catalogue.GAIN, catalogue.OFFSET),
+    "time": (catalogue.OFFSET,),
+    "temperature": (catalogue.OFFSET,),
+}
+"""What a free curve at the same joint contains, by what it follows."""
+OWNED = {
+    catalogue.WAY: catalogue.COULOMB,
+    catalogue.PLAY: catalogue.DELAY,
+    catalogue.SCALE: catalogue.GAIN,
+}
+"""What a law outside the library contains, by what it follows."""
+OWNS = {catalogue.BALANCER: catalogue.OFFSET}
+"""A spring's rest is not known, so that its pull in the middle of the range is its own."""
+
+
+def _clash(one: PlacedCause, other: PlacedCause) -> bool:
+    """Whether causes at one place can't stand side by side: two forms of one, or a free curve and what it contains."""
+    if one.is_curve and other.is_curve:
+        return one.driver == other.driver
+    if one.is_curve or other.is_curve:
+        curve, special = (one, other) if one.is_curve else (other, one)
+        return special.cause in CONTAINED[curve.driver]
+    for owner, owned in ((one, other), (other, one)):
+        own = (OWNS.get(owner.cause), OWNED.get(owner.driver) if owner.cause is catalogue.CURVE else None)
+        if owned.cause in own or _at_all_temperatures(owner) is owned.cause:
+            return True
+    return one.cause is other.cause and not (one.runs or other.runs)
+
+
+def _at_all_temperatures(cause: PlacedCause) -> Cause | None:
+    """What a friction that changes with temperature contains where it has a constant part."""
+    if cause.cause is not catalogue.TEMPERATURE_FRICTION or cause.width == 1:
+        return None
+    return catalogue.VISCOUS if cause.variant == "viscous" else catalogue.COULOMB

@@ -1,0 +1,223 @@
+"""What a cause is: a kind with its words, placed at a joint or link with its columns.
+
+Columns are torque, N m (N of a sliding joint), per unit of the cause's parameters, as functions of the samples: the fit
+is linear in them. Signs: torque is the motor's, positive along the motion that it drives.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.motion.samples.constants import CUTOFF, FILTER
+from armscope.motion.samples.preparation import Signals
+from armscope.robot.bodies import Bodies
+from armscope.robot.dynamics import MovingArm
+from armscope.verdict.effects import UNKNOWN
+
+if TYPE_CHECKING:
+    from armscope.motion.library.clauses import Clause
+    from armscope.motion.library.dry_friction import DryFriction
+    from armscope.motion.library.remedies import Remedy
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A kind of cause.
+
+    Attributes:
+        name, family: as the verdict has them.
+        physics, confirm, cure: one sentence each.
+        nonnegative: its one parameter can't be negative.
+        in_bodies: masses, dry and viscous friction and armature of a simulator's joint can say it.
+        labels: its parameters' names on a card, where their own don't say it.
+        clause: what a headline says of it; its title and size where not given.
+        remedy: its cure with the numbers found; the cure as it stands where not given.
+    """
+
+    name: str
+    family: str
+    physics: str
+    confirm: str
+    cure: str
+    nonnegative: bool = False
+    in_bodies: bool = False
+    labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    clause: Clause | None = field(default=None, repr=False, compare=False)
+    remedy: Remedy | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def nameless(self) -> bool:
+        """Whether no known law explains it: it is known by what it follows alone."""
+        return self.family == UNKNOWN
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """What columns are functions of: samples, and what the model says of them so far.
+
+    Attributes:
+        signals: the samples.
+        rigid: (N, m) torque that the masses ask for.
+        predicted: (N, m) torque with friction and whatever else is in the model.
+        gravity: (N, m, 3) torque per m/s^2 of gravity along each base axis; None unless it was asked for.
+        rate: samples per second.
+        bodies: what asks for torque on other motions than the samples'; None where no law has any.
+        dry: the dry friction that is in ``predicted``; None where that holds none.
+        stated: (N, m) torque that the stated masses ask for; None where that is ``rigid``. Of a fitted torque a gain,
+            or a curve that holds one, would be the whole model once more, at the price of one number, and put an end
+            to friction and masses.
+        bare: (N, m) the same with friction and rotors as they are so far; None where that is ``predicted``.
+        read: (N, m) torque that a gain is of; None where that is ``predicted``.
+    """
+
+    signals: Signals
+    rigid: Array
+    predicted: Array
+    gravity: Array | None
+    rate: float
+    bodies: Bodies | None = None
+    dry: DryFriction | None = None
+    stated: Array | None = None
+    bare: Array | None = None
+    read: Array | None = None
+
+    @functools.cached_property
+    def slopes(self) -> tuple[Array, Array, Array]:
+        """(N, m, m) how the bodies' torque changes with position, velocity and acceleration of each motor."""
+        assert self.bodies is not None
+        return self.bodies.slopes(*self.motion)
+
+    @property
+    def load(self) -> Array:
+        """(N, m) torque that the stated masses ask for."""
+        return self.rigid if self.stated is None else self.stated
+
+    @property
+    def motion(self) -> tuple[Array, Array, Array]:
+        """(N, m) positions, velocities, accelerations of the links."""
+        return self.signals.of_links
+
+
+Columns = Callable[[Moment], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedCause:
+    """A cause at a place.
+
+    Attributes:
+        cause: of which kind.
+        location: "joint 2", "link 3", "payload", ...
+        driver: what it follows.
+        parameters: (name, unit) of each column.
+        joints: whose torque it is part of, from 0.
+        columns: (N, joints, c) at samples; None where it is made of other columns.
+        of_background: (joint, number in `BACKGROUND`): it is one of every joint's own columns.
+        inertial: (10 n, c) inertial parameters per unit of its own; None where it has columns.
+        runs: the only runs in which it is there; empty for all.
+        variant: which of several forms of the kind at this place.
+        multiplicity: how many values of a scanned number compete.
+        is_curve: a free curve.
+        scanned: (name, unit, value) of numbers that were scanned.
+        expected: (c,) how large its parameters are expected to be beside each other; empty: alike.
+    """
+
+    cause: Cause
+    location: str
+    driver: str
+    parameters: tuple[tuple[str, str], ...]
+    joints: tuple[int, ...]
+    columns: Columns | None = None
+    inertial: Array | None = None
+    of_background: tuple[int, int] | None = None
+    runs: tuple[str, ...] = ()
+    variant: str = ""
+    multiplicity: int = 1
+    is_curve: bool = False
+    scanned: tuple[tuple[str, str, float], ...] = ()
+    expected: tuple[float, ...] = ()
+
+    @property
+    def width(self) -> int:
+        """Number of its columns."""
+        return len(self.parameters)
+
+    def __str__(self) -> str:
+        return f"{self.cause.name.replace('_', ' ')} at {self.location}"
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the table lets a library know: ranges of what causes follow.
+
+    Attributes:
+        arm: the arm.
+        q, dq: (m, 2) least and largest position and velocity.
+        speeds: (m, K) speeds without their sign, evenly spaced among all.
+        load: (m,) largest torque that the stated masses ask for, N m.
+        effort: (m,) RMS of the recorded torque.
+        time: (2,) s, first and last, of the longest run.
+        temperature: (m, 2) deg C, or None.
+        runs: names in order.
+        moving: (m,) whether each joint moves.
+        motion_hz: above which nothing of the motion is seen for noise.
+        regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
+        waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
+        both_sides: (m,) whether each joint's link was recorded beside its motor; None where none was.
+    """
+
+    arm: MovingArm
+    q: Array
+    dq: Array
+    speeds: Array
+    load: Array
+    effort: Array
+    time: Array
+    temperature: Array | None
+    runs: tuple[str, ...]
+    moving: NDArray[np.bool_]
+    regressor: Array
+    motion_hz: float = CUTOFF.widest_hz
+    waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
+    both_sides: NDArray[np.bool_] | None = None
+
+    def unit(self, joint: int) -> str:
+        """Of a joint's position."""
+        return "m" if self.arm.sliding[joint] else "rad"
+
+    def torque(self, joint: int) -> str:
+        """Unit of a motor's torque."""
+        return "N" if self.arm.sliding[joint] else "N m"
+
+
+def side(signals: Signals, width: Array) -> Array:
+    """(N, m) side of the motion, -1 ... 1, as the mean over each sample's time.
+
+    tanh(speed / width), integrated over a sample in which the acceleration stays: where a joint turns back it crosses
+    the width within less than a sample, and where it did so is what the torque holds.
+    """
+    low, high = signals.dq - signals.ddq * signals.period / 2, signals.dq + signals.ddq * signals.period / 2
+    across = np.abs(high - low) > FILTER.alike * width
+    mean = (_log_cosh(high / width) - _log_cosh(low / width)) * width / np.where(across, high - low, 1.0)
+    return np.asarray(np.where(across, mean, np.tanh(signals.dq / width)))
+
+
+def _log_cosh(x: Array) -> Array:
+    return np.asarray(np.abs(x) + np.log1p(np.exp(-2 * np.abs(x))))
+
+
+def sharp_width(arm: MovingArm) -> Array:
+    """(m,) the least of that speed."""
+    return coulomb_width(arm) / FILTER.sharper
+
+
+def coulomb_width(arm: MovingArm) -> Array:
+    """(m,) largest speed within which friction changes sides, rad/s or m/s."""
+    return np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)

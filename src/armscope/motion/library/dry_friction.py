@@ -1,0 +1,146 @@
+"""Dry friction over time: how and when it changes sides, now and some milliseconds ago."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+
+from armscope.core.types import Array
+from armscope.motion.library.causes import coulomb_width, sharp_width, side
+from armscope.motion.samples.preparation import Signals
+from armscope.robot.dynamics import MovingArm
+
+
+def seen_later(time: Array, values: Array, delay: float) -> Array:
+    """Samples as they were some time ago, by a cubic spline.
+
+    A straight line between samples blurs what is between them: of a wave of five samples it loses a fifth half way,
+    and friction that changes sides more softly than it does asks for another law near rest.
+
+    Args:
+        time: (N,) s, even.
+        values: (N,) at these times.
+        delay: s.
+
+    Returns:
+        (N,) of ``delay`` earlier; before the first sample, and after the last one, as it is.
+    """
+    return np.asarray(make_interp_spline(time, values, k=3)(np.clip(time - delay, time[0], time[-1])))
+
+
+@dataclass(frozen=True, eq=False)
+class DryFriction:
+    """Of m joints.
+
+    Attributes:
+        torque: (m,) N m (N).
+        width: (m,) rad/s (m/s) within which it changes sides.
+        turning: (m,) s by which it changes sides later than the speed.
+    """
+
+    torque: Array
+    width: Array
+    turning: Array
+
+    @classmethod
+    def of(cls, arm: MovingArm, torque: Array, turning: Array | float = 0.0, sharper: float = 1.0) -> DryFriction:
+        """As fits have it, or ``sharper`` times as sharp.
+
+        Args:
+            arm: the arm.
+            torque: (m,) N m (N).
+            turning: (m,) s by which it changes sides later than the speed.
+            sharper: times, than fits take it to change sides.
+
+        Returns:
+            It.
+        """
+        return cls(torque, sharp_width(arm) / sharper, np.broadcast_to(np.asarray(turning, dtype=float), torque.shape))
+
+    def side(self, signals: Signals, joint: int, delay: float = 0.0, width: float | None = None) -> Array:
+        """(N,) side of a joint's friction, -1 ... 1, some time ago.
+
+        The joint's motion of that time is taken, and friction changes sides between samples where that does: a
+        straight line, or a spline, between sides that are already means over samples blurs the moment.
+
+        Args:
+            signals: N samples.
+            joint: from 0.
+            delay: s ago.
+            width: rad/s (m/s), where it is not its own.
+
+        Returns:
+            The sides.
+        """
+        dq, ddq = signals.dq[:, joint], signals.ddq[:, joint]
+        if delay:
+            dq, ddq = signals.some_time_ago(joint, delay)
+        dq = dq - ddq * self.turning[joint]
+        at = replace(signals, dq=dq[:, None], ddq=ddq[:, None])
+        return side(at, np.array([self.width[joint] if width is None else width]))[:, 0]
+
+    def delayed(self, signals: Signals, torque: Array, joint: int, delay: float) -> Array:
+        """(N,) a joint's torque of some time ago: what is smooth by a spline, and its dry friction exactly.
+
+        Args:
+            signals: N samples.
+            torque: (N,) of the joint, its dry friction in it.
+            joint: from 0.
+            delay: s ago.
+
+        Returns:
+            Torque, N m (N).
+        """
+        smooth = torque - self.torque[joint] * self.side(signals, joint)
+        before = self.torque[joint] * self.side(signals, joint, delay)
+        return np.asarray(seen_later(signals.time, smooth, delay) + before)
+
+    def rounded(self, signals: Signals, torque: Array, delay: Array, rate: float) -> Array:
+        """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
+
+        Args:
+            signals: N samples.
+            torque: (N, m) in time with the motion.
+            delay: (m,) s by which each is recorded late: so is what a filter takes of it.
+            rate: samples per second.
+
+        Returns:
+            It.
+        """
+        late = np.flatnonzero(delay)
+        if len(late):
+            torque = torque.copy()
+            for j in map(int, late):
+                torque[:, j] = self.delayed(signals, torque[:, j], j, delay[j])
+        return np.asarray(np.gradient(np.gradient(torque, 1 / rate, axis=0), 1 / rate, axis=0))
+
+
+def own_columns(
+    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, sharper: float = 1.0
+) -> Array:
+    """What every joint has, per unit of each.
+
+    Args:
+        arm: the arm.
+        signals: N samples.
+        delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
+        turning: (m,) s by which friction changes sides later than the speed.
+        sharper: times, than fits take it to change sides.
+
+    Returns:
+        (N, m, 6) of `layout.OWN_NAMES`.
+    """
+    width = sharp_width(arm) / sharper
+    at = replace(signals, dq=signals.dq - signals.ddq * turning)
+    turned = side(at, width)
+    before, blunt = turned, side(at, coulomb_width(arm))
+    late = np.flatnonzero(delay)
+    if len(late):
+        dry, before = DryFriction.of(arm, np.ones(arm.n_motors), turning, sharper), turned.copy()
+        for j in map(int, late):
+            before[:, j] = dry.side(signals, j, delay[j])
+            blunt[:, j] = dry.side(signals, j, delay[j], coulomb_width(arm)[j])
+    later = -np.gradient(before, signals.period, axis=0)
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunt - before, later], axis=2)

@@ -1,0 +1,297 @@
+"""Laws of torque as data: which function of the samples, of which joints, with which numbers; model.yaml holds them.
+
+A law's columns are torque, N m (N of a sliding joint), per unit of the cause's parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+
+from armscope.core.types import Array
+from armscope.motion.library.causes import Moment, side
+from armscope.motion.library.dry_friction import seen_later
+from armscope.motion.samples.preparation import without_lag
+
+
+@dataclass(frozen=True)
+class Law:
+    """A function of the samples.
+
+    Attributes:
+        kind: one of `LAWS`.
+        joints: whose torque it is, from 0.
+        numbers: what the function takes after the samples and the joints.
+    """
+
+    kind: str
+    joints: tuple[int, ...]
+    numbers: tuple[float, ...] = ()
+
+    def __call__(self, moment: Moment) -> Array:
+        """(N, joints, c) columns at the samples."""
+        values = np.asarray(LAWS[self.kind](moment, self.joints, *self.numbers))
+        return values if values.ndim == 3 else values.reshape(len(values), 1, -1)
+
+
+def _speed(m: Moment, joints: tuple[int, ...]) -> Array:
+    return m.signals.dq[:, joints[0]]
+
+
+def _side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    own = list(joints[:1])
+    return side(replace(m.signals, dq=m.signals.dq[:, own], ddq=m.signals.ddq[:, own]), np.array([width]))[:, 0]
+
+
+def _stribeck(m: Moment, joints: tuple[int, ...], width: float, speed: float) -> Array:
+    """The law, and its change with the logarithm of its speed: a scanned speed is never quite the true one."""
+    share = (_speed(m, joints) / speed) ** 2
+    fallen = _side(m, joints, width) * np.exp(-share)
+    return np.column_stack([fallen, 2 * share * fallen])
+
+
+def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
+
+
+def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
+    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
+
+    So dry and viscous friction stay what a fit without the curve would say.
+    """
+    speed, turned = _speed(m, joints), _side(m, joints, width)
+    of_square, of_cube = nearest[:2], nearest[2:]
+    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
+    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
+    return np.column_stack([square, cube])
+
+
+def nearest_to_powers(speeds: Array) -> tuple[float, ...]:
+    """Viscous and dry friction that are nearest to square and cube at speeds (N,), as `powers of speed` takes them."""
+    ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)])
+    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
+    return tuple(map(float, found.T.ravel()))
+
+
+def warmth(m: Moment, joint: int) -> Array:
+    """(N,) deg C of a joint; whoever uses a law of it has made sure that it is recorded."""
+    assert m.signals.temperature is not None
+    return m.signals.temperature[:, joint]
+
+
+def _warm_speed(m: Moment, joints: tuple[int, ...], middle: float, constant: float = 0.0) -> Array:
+    return _warm(m, joints, _speed(m, joints), middle, constant)
+
+
+def _warm_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, constant: float = 0.0) -> Array:
+    return _warm(m, joints, _side(m, joints, width), middle, constant)
+
+
+def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, constant: float) -> Array:
+    """With ``constant``, what friction is off at the middle temperature, too: nobody knows at which it was stated."""
+    changing = (warmth(m, joints[0]) - middle) * friction
+    return np.column_stack([changing, friction]) if constant else changing
+
+
+def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
+    """What a delay changes, per second of it: exactly at the delay given, along the slope for none."""
+    torque = m.predicted[:, joints[0]]
+    if delay == 0:
+        return np.asarray(-np.gradient(torque, 1 / m.rate))
+    if m.dry is None:
+        return (seen_later(m.signals.time, torque, delay) - torque) / delay
+    return (m.dry.delayed(m.signals, torque, joints[0], delay) - torque) / delay
+
+
+def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
+    """Its stiffness, and its pull in the middle of the range: where it rests is not known."""
+    turned = m.signals.q[:, joints[0]] - middle
+    return np.column_stack([turned, np.ones_like(turned)])
+
+
+def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
+    """(N, c) how far something that clings over each way is taken along, -1 ... 1: Prandtl's stop operator.
+
+    Sums of it approach any hysteresis that depends on the way since the last turn and not on time (Visintin 1994).
+    """
+    steps = np.diff(values)
+    turning = steps[np.flatnonzero(steps)[:1]]
+    size = int(np.ceil(np.sqrt(len(values))))
+    moved = np.zeros((size * size, len(ways)))
+    moved[1 : len(values)] = steps[:, None] / np.array(ways)
+    blocks = moved.reshape(size, size, -1)
+    # each step cuts off what lies beyond -1 ... 1, and so does any number of them in a row: within all blocks at once,
+    # then from block to block
+    shift, low, high = np.zeros_like(blocks), np.full_like(blocks, -1.0), np.ones_like(blocks)
+    shift[:, 0] = blocks[:, 0]
+    for k in range(1, size):
+        shift[:, k] = shift[:, k - 1] + blocks[:, k]
+        low[:, k] = np.clip(low[:, k - 1] + blocks[:, k], -1, 1)
+        high[:, k] = np.clip(high[:, k - 1] + blocks[:, k], -1, 1)
+    entered = np.empty((size, 1, len(ways)))
+    state = np.full(len(ways), np.sign(turning[0]) if len(turning) else 0.0)
+    for k in range(size):
+        entered[k] = state
+        state = np.clip(state + shift[k, -1], low[k, -1], high[k, -1])
+    return np.clip(entered + shift, low, high).reshape(size * size, -1)[: len(values)]
+
+
+def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
+    torque = (m.predicted if m.bare is None else m.bare)[:, joints[0]]
+    share = torque / usual
+    return np.column_stack([_read(m, joints), torque * np.abs(share), torque * share**2])
+
+
+def _read(m: Moment, joints: tuple[int, ...]) -> Array:
+    """What a gain is of."""
+    return (m.predicted if m.read is None else m.read)[:, joints[0]]
+
+
+def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float = 0.0) -> Array:
+    """What a drive changes that gives way under its link's torque, per unit of compliance, in all joints' torques.
+
+    The link is where its motor is, less compliance x torque of the links there (Spong 1987): exactly to second order
+    at the compliance given, along the slope for none. That torque is low-passed where the motion ends, for it holds two
+    derivatives of the position, and is derived twice.
+    """
+    at, every = joints[0], list(joints)
+    if compliance == 0:
+        by_motion = zip(m.slopes, derived(m, m.rigid[:, at], cutoff), strict=True)
+        return np.asarray(-sum(slope[:, every, at] * lag[:, None] for slope, lag in by_motion))[:, :, None]
+    assert m.bodies is not None
+    torque = m.rigid
+    for _ in range(2):
+        behind = [values.copy() for values in m.motion]
+        for values, lag in zip(behind, derived(m, torque[:, at], cutoff), strict=True):
+            values[:, at] -= compliance * lag
+        torque = m.bodies.torques(*behind)
+    return np.asarray((torque - m.bodies.torques(*m.motion))[:, every, None] / compliance)
+
+
+def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
+    """A torque, or what follows one, through a low-pass without lag, with its first two derivatives.
+
+    Args:
+        m: N samples.
+        torque: (N,) of them.
+        cutoff: Hz.
+
+    Returns:
+        (N,) each.
+    """
+    smooth, time = without_lag(torque, cutoff, m.rate, int(np.ceil(m.rate / cutoff))), m.signals.time
+    path = make_interp_spline(time, smooth, k=5)
+    return smooth, path.derivative(1)(time), path.derivative(2)(time)
+
+
+def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
+    turned = count * m.signals.q[:, joints[0]]
+    return np.column_stack([np.sin(turned), np.cos(turned)])
+
+
+def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    """Dry friction that goes up and down once per turn."""
+    return _side(m, joints, width)[:, None] * _wave(m, joints, 1)
+
+
+FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", "clinging over torques"})
+"""Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
+OF_A_GAIN = ("torque", "powers of torque")
+"""Laws that scale a joint's torque, by one more than their first number."""
+
+
+def is_of_a_gain(columns: object) -> bool:
+    """Whether columns are of the torque as it is recorded; all others are true torque."""
+    return isinstance(columns, Law) and columns.kind in OF_A_GAIN
+
+
+def follows_motion(columns: object, joints: tuple[int, ...]) -> bool:
+    """Whether columns are a law of one joint's own motion, which nothing of the model changes."""
+    of_motion = isinstance(columns, Law) and columns.kind not in FOLLOWS_MODEL and not is_of_a_gain(columns)
+    return of_motion and len(joints) == 1
+
+
+DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
+    "joint angle": lambda m, j: m.signals.q[:, j],
+    "speed": lambda m, j: m.signals.dq[:, j],
+    "load": lambda m, j: m.load[:, j],
+    "time": lambda m, j: m.signals.time,
+    "temperature": warmth,
+}
+"""What a free curve may follow."""
+
+
+def _curve(driver: str) -> Callable[..., Array]:
+    """A cubic spline with evenly spaced knots; beyond its limits it goes on as it was there."""
+
+    def columns(m: Moment, joints: tuple[int, ...], low: float, high: float, count: float) -> Array:
+        knots = np.r_[[low] * 3, np.linspace(low, high, int(count) - 2), [high] * 3]
+        values = np.clip(DRIVERS[driver](m, joints[0]), low, high)
+        return np.asarray(BSpline.design_matrix(values, knots, 3).toarray())
+
+    return columns
+
+
+def _rubbing(m: Moment, joints: tuple[int, ...], sign: float, width: float) -> Array:
+    j, k = joints
+    speed, turning = (values[:, j] + sign * values[:, k] for values in (m.signals.dq, m.signals.ddq))
+    turned = side(replace(m.signals, dq=speed[:, None], ddq=turning[:, None]), np.array([width]))
+    both = np.column_stack([turned, speed])
+    return np.stack([both, sign * both], axis=1)
+
+
+def _inert(m: Moment, joints: tuple[int, ...], sign: float) -> Array:
+    j, k = joints
+    acceleration = m.signals.ddq[:, j] + sign * m.signals.ddq[:, k]
+    return np.stack([acceleration, sign * acceleration], axis=1)[:, :, None]
+
+
+def _lean(m: Moment, joints: tuple[int, ...], *leans: float) -> Array:
+    assert m.gravity is not None
+    return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
+
+
+def _wound_up(m: Moment, joints: tuple[int, ...]) -> Array:
+    """A link lags behind the motor that drives it, in proportion to the torque between them."""
+    return -m.rigid[:, joints[0]]
+
+
+def _played(m: Moment, joints: tuple[int, ...], width: float) -> Array:
+    """A link lies at one end of its play or at the other, as torque pushes it; within a width of torque it changes."""
+    return np.asarray(-np.tanh(m.rigid[:, joints[0]] / width))
+
+
+OF_TWIST: dict[str, Callable[..., Array]] = {
+    "constant": lambda m, joints: np.ones(len(m.rigid)),
+    "wound up": _wound_up,
+    "at either end": _played,
+    "share of the turn": lambda m, joints, middle: m.signals.q[:, joints[0]] - middle,
+    "read later": lambda m, joints: -m.signals.dq[:, joints[0]],
+}
+"""Laws of where a link lies beside its motor: columns are rad (m of a sliding joint)."""
+LAWS: dict[str, Callable[..., Array]] = {
+    **OF_TWIST,
+    "absolute speed": lambda m, joints: np.abs(_speed(m, joints)),
+    "stribeck": _stribeck,
+    "load friction": _load_side,
+    "powers of speed": _powers,
+    "warm speed": _warm_speed,
+    "warm side": _warm_side,
+    "torque": _read,
+    "delayed torque": _delayed,
+    "powers of torque": _powers_of_torque,
+    "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
+    "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),
+    "behind a drive": _behind,
+    "spring": _spring,
+    "wave": _wave,
+    "uneven friction": _uneven_side,
+    "rubbing of two": _rubbing,
+    "inertia of two": _inert,
+    "leaning gravity": _lean,
+    **{f"curve over {driver}": _curve(driver) for driver in DRIVERS},
+}
+"""Every law by its name in a model file: a function of the samples, the joints and the law's numbers."""

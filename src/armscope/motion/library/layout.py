@@ -1,0 +1,145 @@
+"""Which column of a motion's model stands where: every joint's own, masses, gains, the drives' response, causes."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.motion.constants import PRIOR
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.laws import Law, is_of_a_gain
+from armscope.robot.dynamics import MovingArm
+
+NAMED_OF_OWN = ("offset", "coulomb", "viscous", "inertia")
+OWN_NAMES = (*NAMED_OF_OWN, "blunter", "later")
+"""Columns that every joint has: offset, dry and viscous friction, rotor inertia, how friction changes sides, and when.
+
+The last two are no causes: within a hundredth of a radian per second and some milliseconds friction turns over in a
+way that presliding, filters and rounding blur. They are free within limits, so that no cause is named for them, and
+so that no other number of the joint takes them up: a delay of all torque in their place takes viscous friction, times
+its seconds, from the rotor's inertia.
+"""
+OWN, CAUSES_OF_OWN = len(OWN_NAMES), len(NAMED_OF_OWN)
+
+
+@dataclass(frozen=True, eq=False)
+class TorqueLayout:
+    """Which column stands where: background of each joint, inertial parameters, gains, causes.
+
+    Attributes:
+        arm: the arm.
+        placed: the causes that compete.
+        with_gains: whether torques come from currents, whose gains are known to some percent.
+    """
+
+    arm: MovingArm
+    placed: tuple[PlacedCause, ...]
+    with_gains: bool
+
+    @property
+    def own(self) -> Indices:
+        """(6 m,) of `OWN`, joint by joint."""
+        return np.arange(OWN * self.arm.n_motors)
+
+    @property
+    def frames(self) -> Indices:
+        """Those of `own` that are always free: friction and rotors that robot.yaml does not state.
+
+        Where it states them all, the drives' response: something must be free for noise to be told from torque.
+        """
+        free = np.ones((self.arm.n_motors, OWN), dtype=np.bool_)
+        free[:, :CAUSES_OF_OWN] = np.isnan(self.arm.stated_background)
+        free[:, [0, *range(CAUSES_OF_OWN, OWN)]] = False
+        return np.flatnonzero(free.ravel()) if free.any() else self.response
+
+    @property
+    def response(self) -> Indices:
+        """(1,) how drives round off all torque, in seconds squared; after `gains`."""
+        return len(self.own) + len(self.inertial) + len(self.gains) + np.arange(1)
+
+    @property
+    def reversals(self) -> Indices:
+        """(m, 2) the last two of `OWN` of each joint."""
+        return np.arange(self.arm.n_motors)[:, None] * OWN + np.arange(CAUSES_OF_OWN, OWN)
+
+    @property
+    def inertial(self) -> Indices:
+        """(10 n,) inertial parameters, in shares of `inertial_scale`."""
+        return len(self.own) + np.arange(len(self.arm.inertial))
+
+    @property
+    def gains(self) -> Indices:
+        """(m,) or none: shares of each joint's torque."""
+        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
+
+    @functools.cached_property
+    def scaling(self) -> list[tuple[int, int]]:
+        """(joint, column) of all that says by which share more of a joint's torque is recorded than there is."""
+        found = [(j, int(column)) for j, column in enumerate(self.gains)]
+        laws = ((cause.columns, index) for cause, index in zip(self.placed, self.columns, strict=True))
+        return found + [(law.joints[0], int(at[0])) for law, at in laws if isinstance(law, Law) and is_of_a_gain(law)]
+
+    @functools.cached_property
+    def of_readings(self) -> Indices:
+        """Columns of the torque as it is recorded: gains, and what bends their curve; all others are true torque."""
+        laws = [is_of_a_gain(cause.columns) for cause in self.placed]
+        return np.concatenate([self.gains, *itertools.compress(self.columns, laws)]).astype(np.intp)
+
+    @functools.cached_property
+    def columns(self) -> list[Indices]:
+        """Of each cause."""
+        start, columns = int(self.response[0]) + 1, []
+        for cause in self.placed:
+            if cause.of_background is not None:
+                columns.append(np.array([OWN * cause.of_background[0] + cause.of_background[1]]))
+            else:
+                columns.append(np.arange(start, start + cause.width))
+                start += cause.width
+        return columns
+
+    @functools.cached_property
+    def made_of_masses(self) -> tuple[Indices, Array]:
+        """(C,) columns that are combinations of inertial ones, and (10 n, C) their shares of these."""
+        made = [
+            (cause, index) for cause, index in zip(self.placed, self.columns, strict=True) if cause.inertial is not None
+        ]
+        if not made:
+            return np.empty(0, dtype=np.intp), np.empty((len(self.inertial), 0))
+        shares = np.hstack([np.asarray(cause.inertial) for cause, _ in made]) / self.inertial_scale[:, None]
+        return np.concatenate([index for _, index in made]), shares
+
+    @functools.cached_property
+    def made_in(self) -> list[tuple[str, ...]]:
+        """The only runs in which each of these is there; none: all."""
+        return [cause.runs for cause in self.placed if cause.inertial is not None for _ in range(cause.width)]
+
+    @property
+    def differs_by_run(self) -> bool:
+        """Whether some are there in some runs only."""
+        return any(self.made_in)
+
+    def shares_in(self, run: str) -> Array:
+        """(10 n, C) shares of `made_of_masses` in a run: none of what is not there."""
+        there = np.array([not runs or run in runs for runs in self.made_in], dtype=np.float64)
+        return self.made_of_masses[1] * there
+
+    @functools.cached_property
+    def width(self) -> int:
+        """Number of columns."""
+        last = max((int(columns[-1]) for columns in self.columns), default=0)
+        return max(last, int(self.response[0])) + 1
+
+    @property
+    def inertial_scale(self) -> Array:
+        """(10 n,) kg, kg m, kg m^2 of each link: its mass, mass x length, mass x length^2."""
+        mass = self.arm.inertial[::10]
+        mass = np.maximum(mass, PRIOR.lightest_share * mass.mean())
+        reach = sum(
+            np.linalg.norm(self.arm.model.jointPlacements[j].translation) for j in range(2, self.arm.model.njoints)
+        )
+        length = max(float(reach) / max(self.arm.n_links - 1, 1), 0.05)
+        return np.asarray(np.concatenate([m * np.array([1.0, *[length] * 3, *[length**2] * 6]) for m in mass]))

@@ -1,0 +1,109 @@
+"""Causes that are made of inertial parameters: links, payloads, bodies that are not there; and gravity's direction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+
+from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Cause, PlacedCause, Seen
+from armscope.motion.library.laws import Law
+from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
+
+
+def place_masses(seen: Seen) -> Iterator[PlacedCause]:
+    """Every cause that is made of inertial parameters, and gravity's direction."""
+    arm, identity = seen.arm, np.eye(len(seen.arm.inertial))
+    for link in range(arm.n_links):
+        own, mass, place = slice(10 * link, 10 * link + 10), arm.inertial[10 * link], f"link {link + 1}"
+        if mass > 0:
+            heavier = np.zeros((len(arm.inertial), 1))
+            heavier[own, 0] = arm.inertial[own] / mass
+            yield from _inertial(seen, catalogue.LINK_MASS, place, (("mass", "kg"),), heavier)
+        if arm.n_links > 1:
+            first, second = identity[:, own] @ moved_centre(arm.inertial[own]), identity[:, 10 * link + 4 : own.stop]
+            moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
+            yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
+            names = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
+            yield from _inertial(seen, catalogue.LINK_INERTIA, place, names, second, variant="all six")
+            alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
+            yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
+    if arm.n_links > 1:
+        yield from _payloads(seen, identity[:, -10:-6])
+        yield from _gravity(seen, tuple(range(arm.n_motors)))
+
+
+def at_its_place(placed: PlacedCause, arm: MovingArm, values: Array) -> PlacedCause:
+    """A link whose centre lies elsewhere, its inertia about its joint exact for the moments fitted.
+
+    The slope leaves out their square, which a light link's motion shows: an inertia was named beside it.
+
+    Args:
+        placed: of `catalogue.LINK_CENTRE`.
+        arm: the arm as stated.
+        values: (c,) its moments, kg m.
+
+    Returns:
+        It, with other columns.
+    """
+    axes = ["xyz".index(name[1]) for name, _ in placed.parameters]
+    link, by = int(placed.location.split()[1]) - 1, np.zeros(3)
+    by[axes] = values
+    own = slice(10 * link, 10 * link + 10)
+    inertial = np.zeros((len(arm.inertial), len(axes)))
+    inertial[own] = moved_centre(arm.inertial[own], by)[:, axes]
+    return replace(placed, inertial=inertial)
+
+
+def _inertial(
+    seen: Seen, cause: Cause, place: str, names: tuple[tuple[str, str], ...], inertial: Array, **more: Any
+) -> Iterator[PlacedCause]:
+    """A cause made of inertial parameters, with those of its columns that the motion can tell, by pivoted QR."""
+    torque = seen.regressor @ inertial
+    size = np.sqrt(np.mean(torque**2, axis=0))
+    seen_at_all = np.flatnonzero(
+        size > LIBRARY.least_shown * np.sqrt(np.mean((seen.regressor @ seen.arm.inertial) ** 2))
+    )
+    if not len(seen_at_all):
+        return
+    _, R, order = scipy.linalg.qr(torque[:, seen_at_all] / size[seen_at_all], mode="economic", pivoting=True)
+    diagonal = np.abs(np.diag(R))
+    told = np.sort(seen_at_all[order[: len(diagonal)][diagonal > LIBRARY.redundant_columns * diagonal[0]]])
+    every = tuple(range(seen.arm.n_motors))
+    driver = "acceleration" if cause is catalogue.LINK_INERTIA else "load"
+    yield PlacedCause(cause, place, driver, tuple(names[k] for k in told), every, inertial=inertial[:, told], **more)
+
+
+def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
+    """Mass at the tool point, or anywhere on the last link: in all runs, and in each run by itself."""
+    anywhere = (("mass", "kg"), *((f"m{axis}", "kg m") for axis in "xyz"))
+    variants: list[tuple[str, ...]] = [()]
+    if len(seen.runs) > 1:
+        variants += [(run,) for run in seen.runs]
+    for runs in variants:
+        name, more = runs[0] if runs else "", {"runs": runs, "multiplicity": len(variants)}
+        point = seen.arm.point_load()[:, None]
+        yield from _inertial(
+            seen, catalogue.PAYLOAD, "payload", anywhere[:1], point, variant=f"{name} tool".strip(), **more
+        )
+        yield from _inertial(
+            seen, catalogue.PAYLOAD, "payload", anywhere, columns, variant=f"{name} free".strip(), **more
+        )
+    for body, inertial in seen.arm.attached:
+        if inertial[::10].max() > LIBRARY.least_body * seen.arm.inertial[10 * int(inertial[::10].argmax())]:
+            yield from _inertial(seen, catalogue.BODY, body, (("times", ""),), inertial[:, None])
+
+
+def _gravity(seen: Seen, every: tuple[int, ...]) -> Iterator[PlacedCause]:
+    down = seen.arm.model.gravity.linear
+    if np.linalg.norm(down) == 0:
+        return
+    names = tuple((axis, "rad") for axis in "xy")
+    law = Law("leaning gravity", every, tuple(map(float, leaning_gravity(down).ravel())))
+    yield PlacedCause(catalogue.GRAVITY, "base", "load", names, every, law)

@@ -1,0 +1,209 @@
+"""The library placed on an arm: every cause at every joint or link where the table can show it."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Cause, PlacedCause, Seen, coulomb_width, sharp_width
+from armscope.motion.library.laws import Law, nearest_to_powers
+from armscope.motion.library.masses import place_masses
+
+
+def place_causes(seen: Seen) -> list[PlacedCause]:
+    """Every cause that the table can show, at every place."""
+    moving = [int(j) for j in np.flatnonzero(seen.moving)]
+    placed = [cause for joint in moving for cause in _background(seen, joint)]
+    placed += [cause for joint in moving for cause in _at_joint(seen, joint)]
+    placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other)]
+    return [*placed, *place_masses(seen)]
+
+
+def _background(seen: Seen, j: int) -> Iterator[PlacedCause]:
+    """The joint's offset, and what of its friction and rotor robot.yaml states: departures from that are catalogue."""
+    torque, unit = seen.torque(j), seen.unit(j)
+    units = (torque, torque, f"{torque} s/{unit}", "kg" if seen.arm.sliding[j] else "kg m^2")
+    names = ("offset", "coulomb", "viscous", "inertia")
+    for number, cause in enumerate(catalogue.BACKGROUND):
+        if number == 0 or np.isfinite(seen.arm.stated_background[j, number]):
+            yield PlacedCause(
+                cause,
+                f"joint {j + 1}",
+                ("constant", "direction", "speed", "acceleration")[number],
+                ((names[number], units[number]),),
+                (j,),
+                of_background=(j, number),
+            )
+
+
+def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
+    at = _Joint(seen, j)
+    if at.both_ways:
+        yield from _friction(at)
+        if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
+            yield from _warmth(at, seen.temperature[j])
+    yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
+    for delay in LIBRARY.delays_s:
+        how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
+        yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", delay, **how)
+    if seen.both_sides is None or not seen.both_sides[j]:
+        yield _drive(at)  # where the link is recorded, its bodies move as it does
+    yield from _outside(at)
+    yield from _springs(at)
+    yield at.curve(catalogue.CURVE, "time", seen.time, LIBRARY.knots_of_time, variant="time")
+    for driver, limits in (("speed", seen.dq[j]), ("load", np.array([-1.0, 1.0]) * seen.load[j])):
+        if np.ptp(limits) > (LIBRARY.least_shown * seen.effort[j] if driver == "load" else 0):
+            yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
+
+
+@dataclass(frozen=True, eq=False)
+class _Joint:
+    """A joint at which causes are placed."""
+
+    seen: Seen
+    number: int
+
+    @property
+    def unit(self) -> str:
+        return self.seen.unit(self.number)
+
+    @property
+    def torque(self) -> str:
+        return self.seen.torque(self.number)
+
+    @property
+    def width(self) -> float:
+        """Speed within which friction changes sides."""
+        return float(coulomb_width(self.seen.arm)[self.number])
+
+    @property
+    def sharp(self) -> float:
+        """The least of it."""
+        return float(sharp_width(self.seen.arm)[self.number])
+
+    @property
+    def nearest(self) -> tuple[float, ...]:
+        """Viscous and dry friction nearest to powers of the speeds at which it moves."""
+        speeds = self.seen.speeds[self.number]
+        return nearest_to_powers(speeds[speeds > self.width])
+
+    @property
+    def both_ways(self) -> bool:
+        """Whether it moves fast enough either way to show friction."""
+        slow = LIBRARY.slow * self.width
+        return bool(self.seen.dq[self.number, 0] < -slow and self.seen.dq[self.number, 1] > slow)
+
+    def cause(
+        self, cause: Cause, driver: str, parameters: tuple[tuple[str, str], ...], *law: Any, **more: Any
+    ) -> PlacedCause:
+        """A cause here by its law: the law's name, then its numbers."""
+        kind, *numbers = law
+        columns = Law(kind, (self.number,), tuple(map(float, numbers)))
+        return PlacedCause(cause, f"joint {self.number + 1}", driver, parameters, (self.number,), columns, **more)
+
+    def curve(self, cause: Cause, driver: str, limits: Array, knots: int, **more: Any) -> PlacedCause:
+        """A free curve between limits."""
+        names = tuple((f"knot {k + 1}", self.torque) for k in range(knots))
+        return self.cause(cause, driver, names, f"curve over {driver}", *limits, knots, is_curve=True, **more)
+
+
+def _friction(at: _Joint) -> Iterator[PlacedCause]:
+    torque, unit = at.torque, at.unit
+    by_side = (("viscous_difference", f"{torque} s/{unit}"),)
+    yield at.cause(catalogue.ASYMMETRY, "direction", by_side, "absolute speed")
+    fastest, slowest = float(np.abs(at.seen.dq[at.number]).max()), LIBRARY.slow * at.width
+    widths = np.geomspace(slowest, max(fastest / 2, 2 * slowest), LIBRARY.stribeck_widths)
+    for v in map(float, widths):
+        more: dict[str, Any] = {"variant": f"{v:.3g}", "scanned": (("speed", f"{unit}/s", v),)}
+        names = (("stribeck", torque), ("wider", torque))
+        more["expected"] = (1.0, LIBRARY.between_speeds)
+        yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
+    yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
+    powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
+    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *at.nearest)
+
+
+def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
+    middle, cause, driver = float(np.mean(limits)), catalogue.TEMPERATURE_FRICTION, "temperature"
+    dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
+    viscous = (("per_kelvin", f"{at.torque} s/({at.unit} K)"), ("viscous", f"{at.torque} s/{at.unit}"))
+    yield at.cause(
+        cause, driver, viscous[: 1 + viscous_stated], "warm speed", middle, viscous_stated, variant="viscous"
+    )
+    dry = (("dry_per_kelvin", f"{at.torque}/K"), ("dry", at.torque))[: 1 + dry_stated]
+    yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, dry_stated, variant="dry")
+    yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
+
+
+def _drive(at: _Joint) -> PlacedCause:
+    """A drive that gives way: the torque of every joint changes with where the link is."""
+    j, seen = at.number, at.seen
+    every = (j, *(k for k in range(seen.arm.n_motors) if k != j))
+    law = Law("behind a drive", every, (seen.motion_hz, 0.0))
+    names = (("compliance", f"{at.unit}/({at.torque})"),)
+    return PlacedCause(catalogue.COMPLIANCE, f"joint {j + 1}", "load", names, every, law)
+
+
+def _springs(at: _Joint) -> Iterator[PlacedCause]:
+    driver, q = "joint angle", at.seen.q[at.number]
+    stiffness = (("stiffness", f"{at.torque}/{at.unit}"), ("torque", at.torque))
+    yield at.cause(catalogue.BALANCER, driver, stiffness, "spring", float(np.mean(q)))
+    if not at.seen.arm.sliding[at.number]:
+        waves = (("sine", at.torque), ("cosine", at.torque))
+        yield at.cause(catalogue.BALANCER, driver, waves, "wave", 1, variant="counterweight")
+        found, tried = at.seen.waves.get(at.number, ((), 1))
+        for n in found:
+            more: dict[str, Any] = {"variant": str(n), "scanned": (("per_turn", "", float(n)),)}
+            yield at.cause(catalogue.RIPPLE, driver, waves, "wave", n, multiplicity=tried, **more)
+    yield at.curve(catalogue.CABLE, driver, q, LIBRARY.knots_of_position)
+
+
+def _outside(at: _Joint) -> Iterator[PlacedCause]:
+    """Laws that no cause has, so that what follows them is located and not called something else."""
+    ways = np.array(LIBRARY.ways) * float(np.ptp(at.seen.q[at.number]))
+    names = tuple((f"over way {k + 1}", at.torque) for k in range(len(ways)))
+    yield at.cause(catalogue.CURVE, catalogue.WAY, names, "clinging over ways", *ways, variant="way")
+    if at.both_ways and not at.seen.arm.sliding[at.number]:
+        names = (("sine", at.torque), ("cosine", at.torque))
+        yield at.cause(catalogue.CURVE, catalogue.UNEVEN, names, "uneven friction", at.sharp, variant="uneven")
+    usual = float(at.seen.effort[at.number])
+    widths = np.array(LIBRARY.plays) * usual
+    names = tuple((f"over torque {k + 1}", at.torque) for k in range(len(widths)))
+    yield at.cause(catalogue.CURVE, catalogue.PLAY, names, "clinging over torques", *widths, variant="play")
+    names = (("linear", ""), ("square", ""), ("cube", ""))
+    yield at.cause(catalogue.CURVE, catalogue.SCALE, names, "powers of torque", usual, variant="scale")
+
+
+def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
+    """What turns with the sum or the difference of two neighbours' motions, and acts on both of them."""
+    width, place = sharp_width(seen.arm), f"joint {k + 1} from joint {j + 1}"
+    if seen.arm.sliding[j] != seen.arm.sliding[k]:
+        return
+    torque, unit = seen.torque(k), seen.unit(k)
+    rubbing = (("coulomb", torque), ("viscous", f"{torque} s/{unit}"))
+    for sign, variant in ((1.0, ""), (-1.0, "difference")):
+        yield PlacedCause(
+            catalogue.COUPLED_FRICTION,
+            place,
+            "the neighbour's speed",
+            rubbing,
+            (j, k),
+            Law("rubbing of two", (j, k), (sign, float(min(width[j], width[k])))),
+            variant=variant,
+        )
+        yield PlacedCause(
+            catalogue.COUPLED_INERTIA,
+            place,
+            "the neighbour's acceleration",
+            (("inertia", "kg m^2"),),
+            (j, k),
+            Law("inertia of two", (j, k), (sign,)),
+            variant=variant,
+        )

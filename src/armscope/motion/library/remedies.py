@@ -1,0 +1,116 @@
+"""How a cause of a moving arm is put right, with sign and number where it has one number, or few.
+
+A cure that changes the model adds what the recorded torque has beyond it; one that changes the recording takes it away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.clauses import Numbers, amount
+from armscope.motion.library.laws import Law
+from armscope.robot.dynamics import MovingArm
+from armscope.verdict.effects import Parameter
+
+_SAID = {"mx": "mass × x", "my": "mass × y", "mz": "mass × z"}
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A cause at its place with its numbers.
+
+    Attributes:
+        placed: the cause.
+        parameters: as fitted.
+        arm: as stated.
+    """
+
+    placed: PlacedCause
+    parameters: tuple[Parameter, ...]
+    arm: MovingArm
+
+    @property
+    def first(self) -> Parameter:
+        """Its first number, often its only one."""
+        return self.parameters[0]
+
+    @property
+    def numbers(self) -> Numbers:
+        """All of them by name."""
+        return {parameter.name: parameter for parameter in self.parameters}
+
+    @property
+    def in_general(self) -> str:
+        """The cure without a number, and without its full stop."""
+        return self.placed.cause.cure.removesuffix(".")
+
+
+Remedy = Callable[[Fitted], str]
+
+
+def add_to_stated(fitted: Fitted) -> str:
+    """A number of the model that is the stated one and this."""
+    return f"{fitted.in_general}: stated {amount(fitted.first, sign=True)}."
+
+
+def each_direction(fitted: Fitted) -> str:
+    """A coefficient for each direction."""
+    forward, backward = ("plus", "less") if fitted.first.value > 0 else ("less", "plus")
+    size = amount(fitted.first)
+    return f"{fitted.in_general}: the joint's viscous friction {forward} {size} forward, {backward} as much backward."
+
+
+def by_factor(fitted: Fitted) -> str:
+    """A torque constant, and with it the recorded torque."""
+    if fitted.first.value <= -1:
+        return fitted.placed.cause.cure
+    factor = 1 / (1 + fitted.first.value)
+    return f"Multiply the joint's torque constant, and so the recorded torque, by {factor:.3f}."
+
+
+def off_the_recording(fitted: Fitted) -> str:
+    """An offset of the recorded torque."""
+    return f"Take the offset, {amount(fitted.first, sign=True)}, from the recorded torque."
+
+
+def shifted(fitted: Fitted) -> str:
+    """A delay of the recorded torque."""
+    side = "earlier" if fitted.first.value > 0 else "later"
+    return f"Shift the recorded torque {amount(fitted.first)} {side}, or simulate that."
+
+
+def lagging(fitted: Fitted) -> str:
+    """A link that lags behind its motor."""
+    return f"{fitted.in_general}: {amount(fitted.first)} of torque."
+
+
+def spring_between(fitted: Fitted) -> str:
+    """A spring between motor and link."""
+    return f"{fitted.in_general}: {amount(fitted.numbers['stiffness'])}."
+
+
+def per_load(fitted: Fitted) -> str:
+    """Friction that grows with the load."""
+    return f"{fitted.in_general}: {amount(fitted.first)} × |torque| × sign of the speed."
+
+
+def as_stated_and(fitted: Fitted) -> str:
+    """A load's mass, and its mass times its centre's place."""
+    numbers = fitted.numbers
+    told = ", ".join(f"{_SAID.get(name, name)} {amount(value, sign=True)}" for name, value in numbers.items())
+    where = " in the last link's frame" if len(numbers) > 1 else ""
+    return f"{fitted.in_general}: as stated and {told}{where}."
+
+
+def gravity_vector(fitted: Fitted) -> str:
+    """The direction in which gravity pulls."""
+    columns = fitted.placed.columns
+    if not isinstance(columns, Law):
+        return fitted.placed.cause.cure
+    leans = np.array(columns.numbers).reshape(-1, 3)
+    found = fitted.arm.model.gravity.linear + np.array([each.value for each in fitted.parameters]) @ leans
+    return f"Set gravity_m_s2 to [{', '.join(f'{each:.3f}' for each in found)}], or level the base."

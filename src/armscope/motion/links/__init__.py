@@ -1,0 +1,1 @@
+"""Links with encoders of their own, beside their motors."""

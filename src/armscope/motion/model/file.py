@@ -1,0 +1,245 @@
+"""model.yaml of an arm in motion: its version, its JSON schema; the one place that writes and reads it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from armscope.core.files import write_yaml
+from armscope.core.inputs import InputError, Strict, format_of, read_yaml, validate
+from armscope.core.types import Array
+from armscope.motion.constants import MODEL_FILE
+from armscope.motion.library.laws import Law
+from armscope.motion.library.layout import OWN_NAMES
+from armscope.motion.model.file_check import CauseReader
+from armscope.motion.model.fitted import FittedCause, MotionModel
+from armscope.motion.samples.preparation import Preparation
+from armscope.robot.description import RobotDescription
+from armscope.robot.dynamics import PARAMETERS, InertialName, build_moving_arm
+
+Format = Literal["armscope motion model 1"]
+FORMAT: Format = "armscope motion model 1"
+Word = Annotated[str, Field(max_length=500)]
+Number = Annotated[float, Field(ge=-MODEL_FILE.largest, le=MODEL_FILE.largest)]
+Positive = Annotated[float, Field(gt=0, le=MODEL_FILE.largest)]
+JointNumber = Annotated[int, Field(ge=1, le=1000)]
+
+
+class PreparationFile(Strict):
+    """How samples became rows."""
+
+    rate_hz: Positive
+    cutoff_hz: Positive
+    position_cutoff_hz: Positive
+    every: Annotated[int, Field(ge=1, le=1_000_000)]
+    cutoff_source: Word
+
+
+class JointFile(Strict):
+    """Friction and rotor of one motor, SI: torque = offset + coulomb side(dq) + viscous dq + inertia ddq.
+
+    ``blunter``, ``later``: how friction changes sides (N m), and when (N m s); ``gain``: share by which recorded
+    torque is too large.
+    """
+
+    joint: Word
+    offset: Number
+    coulomb: Number
+    viscous: Number
+    inertia: Number
+    blunter: Number
+    later: Number
+    gain: Number
+
+
+class LinkFile(Strict):
+    """Inertial parameters of a link about its joint's frame: kg, kg m, kg m^2."""
+
+    link: Word
+    m: Number
+    mx: Number
+    my: Number
+    mz: Number
+    Ixx: Number
+    Ixy: Number
+    Iyy: Number
+    Ixz: Number
+    Iyz: Number
+    Izz: Number
+
+
+class ParameterFile(Strict):
+    """A number of a cause with its standard error; null where the motion does not tell it."""
+
+    name: Word
+    unit: Word
+    value: Number
+    stderr: Number | None
+
+
+class ScannedFile(Strict):
+    """A number that was found by trying values."""
+
+    name: Word
+    unit: Word
+    value: Number
+
+
+class InertialFile(Strict):
+    """By how much one unit of the cause's parameter (from 1) changes an inertial parameter of a link (from 1)."""
+
+    parameter: JointNumber
+    link: JointNumber
+    what: InertialName
+    per_unit: Number
+
+
+class LawFile(Strict):
+    """A law of torque: its kind, the motors (from 1) whose torque it is, its numbers."""
+
+    kind: Word
+    joints: tuple[JointNumber, ...]
+    numbers: tuple[Number, ...]
+
+
+class CauseFile(Strict):
+    """A cause at its place: by a law, by inertial parameters, or, with neither, part of its joint's numbers above."""
+
+    effect: Word
+    location: Word
+    driver: Word
+    variant: Word
+    runs: tuple[Word, ...]
+    parameters: Annotated[tuple[ParameterFile, ...], Field(min_length=1, max_length=100)]
+    scanned: tuple[ScannedFile, ...]
+    law: LawFile | None
+    inertial: tuple[InertialFile, ...]
+
+
+class MotionModelFile(Strict):
+    """The content of model.yaml; the attributes of `armscope.motion.model.fitted.MotionModel`."""
+
+    format: Format
+    robot: RobotDescription
+    recorded: Literal["torque", "current"]
+    preparation: PreparationFile
+    joints: tuple[JointFile, ...]
+    links: tuple[LinkFile, ...]
+    causes: tuple[CauseFile, ...]
+    response_s2: Number = 0.0
+    twists: tuple[CauseFile, ...] = ()
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of model.yaml of a motion."""
+    return MotionModelFile.model_json_schema(mode="serialization")
+
+
+def save_motion_model(path: Path | str, model: MotionModel) -> None:
+    """Write model.yaml; the robot's description is part of it (a URDF by its path)."""
+    how = model.how
+    file = MotionModelFile(
+        format=FORMAT,
+        robot=model.arm.description,
+        recorded=model.kind,
+        preparation=PreparationFile(
+            rate_hz=how.rate,
+            cutoff_hz=how.cutoff,
+            position_cutoff_hz=how.position_cutoff,
+            every=how.every,
+            cutoff_source=how.cutoff_source,
+        ),
+        joints=tuple(
+            JointFile(
+                joint=f"joint {j + 1}",
+                **dict(zip(OWN_NAMES, map(float, own), strict=True)),
+                gain=float(gain),
+            )
+            for j, (own, gain) in enumerate(zip(model.joints, model.gains, strict=True))
+        ),
+        links=tuple(
+            LinkFile(link=f"link {n + 1}", **dict(zip(PARAMETERS, map(float, values), strict=True)))
+            for n, values in enumerate(model.inertial.reshape(-1, len(PARAMETERS)))
+        ),
+        causes=tuple(cause_out(cause) for cause in model.causes),
+        response_s2=model.response,
+        twists=tuple(cause_out(cause) for cause in model.links),
+    )
+    robot = model.arm.description.model_dump(mode="json", exclude_none=True)
+    write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
+
+
+def cause_out(cause: FittedCause) -> CauseFile:
+    """A cause as the file holds it."""
+    placed, law = cause.placed, cause.placed.columns
+    assert law is None or isinstance(law, Law)
+    return CauseFile(
+        effect=placed.cause.name,
+        location=placed.location,
+        driver=placed.driver,
+        variant=placed.variant,
+        runs=placed.runs,
+        parameters=tuple(
+            ParameterFile(name=name, unit=unit, value=float(value), stderr=_told(float(error)))
+            for (name, unit), value, error in zip(placed.parameters, cause.values, cause.stderr, strict=True)
+        ),
+        scanned=tuple(ScannedFile(name=name, unit=unit, value=value) for name, unit, value in placed.scanned),
+        law=None if law is None else LawFile(kind=law.kind, joints=[j + 1 for j in law.joints], numbers=law.numbers),
+        inertial=() if placed.inertial is None else tuple(_inertial_out(placed.inertial)),
+    )
+
+
+def _told(error: float) -> float | None:
+    """A standard error; none where the motion does not tell the number at all."""
+    return error if error <= MODEL_FILE.largest else None
+
+
+def _inertial_out(inertial: Array) -> list[InertialFile]:
+    return [
+        InertialFile(
+            parameter=int(column) + 1,
+            link=int(row) // len(PARAMETERS) + 1,
+            what=PARAMETERS[int(row) % len(PARAMETERS)],
+            per_unit=float(inertial[row, column]),
+        )
+        for column, row in np.argwhere(inertial.T != 0)
+    ]
+
+
+def is_motion_model(content: Any) -> bool:
+    """Whether the content of a YAML file is a model of a motion."""
+    return isinstance(content, dict) and content.get("format") == FORMAT
+
+
+def load_motion_model(path: Path | str) -> MotionModel:
+    """Read model.yaml of a motion.
+
+    Raises:
+        InputError: it is no model of this format, or says what its arm can't have.
+    """
+    content = read_yaml(path)
+    if not is_motion_model(content):
+        found = format_of(content)
+        rule = f"a model of a motion says `format: {FORMAT}`"
+        raise InputError(path, "format", found, rule, "`armscope diagnose motions.csv` writes one.")
+    file = validate(MotionModelFile, content, path)
+    arm = build_moving_arm(file.robot, path)
+    for place, count, wanted in (("joints", len(file.joints), arm.n_motors), ("links", len(file.links), arm.n_links)):
+        if count != wanted:
+            raise InputError(path, place, f"{count} {place}", f"the model's arm has {wanted}")
+    how = file.preparation
+    own = [[getattr(joint, name) for name in OWN_NAMES] for joint in file.joints]
+    return MotionModel(
+        arm=arm,
+        how=Preparation(how.rate_hz, how.cutoff_hz, how.position_cutoff_hz, how.every, how.cutoff_source),
+        kind=file.recorded,
+        joints=np.array(own, dtype=float),
+        inertial=np.array([[getattr(link, name) for name in PARAMETERS] for link in file.links], dtype=float).ravel(),
+        gains=np.array([joint.gain for joint in file.joints], dtype=float),
+        causes=CauseReader(arm, path).causes(file.causes),
+        response=file.response_s2,
+        links=CauseReader(arm, path).causes(file.twists, "twists"),
+    )

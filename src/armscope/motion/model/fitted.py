@@ -1,0 +1,232 @@
+"""The fitted model of a moving arm: friction, masses, gains, causes with their numbers; the torque they predict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.constants import PRIOR
+from armscope.motion.fitting.so_far import SoFar
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Moment, PlacedCause
+from armscope.motion.library.dry_friction import DryFriction, own_columns
+from armscope.motion.library.laws import follows_motion, is_of_a_gain
+from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.model.link_motion import beside_motor, following, moment_of_links
+from armscope.motion.samples.constants import FILTER
+from armscope.motion.samples.preparation import Preparation, Signals, parts
+from armscope.motion.samples.timing import Stretch
+from armscope.robot.bodies import Bodies
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class FittedCause:
+    """A placed cause with the values (c,) of its parameters, SI, and their covariance (c, c)."""
+
+    placed: PlacedCause
+    values: Array
+    covariance: Array
+
+    @property
+    def stderr(self) -> Array:
+        """(c,) standard errors."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
+
+
+@dataclass(frozen=True, eq=False)
+class MotionModel:
+    """What a diagnosis of a motion fitted; SI units, N m (N of a sliding joint).
+
+    Attributes:
+        arm: the arm as stated.
+        how: filters and decimation of the rows that it was fitted to.
+        kind: whether they held torques or currents; what it predicts is torque by the stated gains in either case.
+        joints: (m, 6) of every joint, `layout.OWN`: stated and fitted together.
+        inertial: (10 n,) inertial parameters: stated ones, and by how much the fit moved them unnamed.
+        gains: (m,) shares by which recorded torque exceeds the true one.
+        causes: the named ones.
+        response: by how much of its second derivative drives round a torque off, s^2.
+        links: why links lie beside their motors, rad (m): of joints where both were recorded.
+    """
+
+    arm: MovingArm
+    how: Preparation
+    kind: Literal["torque", "current"]
+    joints: Array
+    inertial: Array
+    gains: Array
+    causes: tuple[FittedCause, ...]
+    response: float = 0.0
+    links: tuple[FittedCause, ...] = ()
+
+    def followed(self) -> SoFar:
+        """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
+        delay = np.zeros(self.arm.n_motors)
+        for cause in self.causes:
+            if cause.placed.cause is catalogue.DELAY:
+                delay[cause.placed.joints[0]] = cause.values[0]
+        runs = {run for cause in self.causes for run in cause.placed.runs}
+        everywhere = self._added(None)
+        of_runs = {run: self._added(run) - everywhere for run in runs}
+        laws = tuple(
+            (each.placed, each.values)
+            for each in self.causes
+            if follows_motion(each.placed.columns, each.placed.joints)
+        )
+        background = self.joints[:, :CAUSES_OF_OWN]
+        return SoFar(self.inertial + everywhere, background, delay, of_runs, laws=laws)
+
+    def _added(self, run: str | None) -> Array:
+        """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
+        added = np.zeros(len(self.inertial))
+        for cause in self.causes:
+            there = not cause.placed.runs or (run is not None and run in cause.placed.runs)
+            if cause.placed.inertial is not None and there:
+                added = added + cause.placed.inertial @ cause.values
+        return added
+
+    def torque(self, signals: Signals, rate: float) -> Array:
+        """(N, m) torque at samples, as it would be recorded.
+
+        Args:
+            signals: filtered positions with their derivatives, payload and temperature.
+            rate: samples per second.
+        """
+        signals = self.with_links(signals)
+        regressor = self.arm.regressor(*signals.of_links)
+        carried = np.zeros(regressor.shape[:2])
+        if signals.payload is not None:
+            carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
+        followed = self.followed()
+        joints, turning = self._turning()
+        own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
+        rigid = regressor @ followed.inertial_in(signals.run) + carried
+        friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
+        bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
+        dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
+        gravity, stated = self._gravity(signals.of_links[0]), regressor @ self.arm.inertial + carried
+        moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
+        moment = followed.with_laws(moment)
+        total = regressor @ (self.inertial + self._added(signals.run)) + carried
+        total += np.einsum("nmk,mk->nm", own, joints)
+        total += self.response * dry.rounded(signals, moment.predicted, followed.delay, rate)
+        true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
+        _add(total, true, moment)
+        moment = replace(moment, read=total.copy())
+        total *= 1 + self.gains
+        _add(total, [cause for cause in self.causes if is_of_a_gain(cause.placed.columns)], moment)
+        return np.asarray(total)
+
+    def with_links(self, signals: Signals) -> Signals:
+        """Samples with links where the model puts them, unless they were recorded."""
+        return following(self.arm, self.links, signals, self.followed(), self.how.motion_hz)
+
+    def link_positions(self, signals: Signals) -> Array:
+        """(N, m) where encoders of links stand, rad (m); NaN of joints of which the model knows nothing."""
+        moment = moment_of_links(self.arm, self.with_links(signals), self.followed(), 1 / signals.period)
+        found = np.full(signals.q.shape, np.nan)
+        for j in {cause.placed.joints[0] for cause in self.links}:
+            beside = sum(beside_motor(cause, moment) for cause in self.links if cause.placed.joints[0] == j)
+            found[:, j] = signals.q[:, j] + beside
+        return found
+
+    def _turning(self) -> tuple[Array, Array]:
+        """(m, 6) the joints' numbers without, and (m,) s, by how much later than its speed dry friction changes sides.
+
+        Fits hold that as friction's slope over time, which is the shift only as long as the low-pass rounds more off.
+        """
+        joints, most = self.joints.copy(), PRIOR.reversal_sizes[-1] * PRIOR.turning_s
+        dry, later = joints[:, 1], joints[:, 5]
+        turning = np.where(dry > 0, np.clip(later / np.where(dry > 0, dry, 1.0), -most, most), 0.0)
+        joints[:, 5] -= turning * dry
+        return joints, turning
+
+    def _gravity(self, q: Array) -> Array | None:
+        if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
+            return None
+        return np.stack([self.arm.gravity_torques(q, axis) for axis in np.eye(3)], axis=2)
+
+
+def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
+    for cause in causes:
+        if cause.placed.columns is not None:
+            total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
+
+
+def fitted_model(
+    layout: TorqueLayout,
+    coefficients: Array,
+    chosen: Sequence[tuple[int, Array]],
+    how: Preparation,
+    links: tuple[FittedCause, ...] = (),
+) -> MotionModel:
+    """The model that coefficients of a selection make.
+
+    Args:
+        layout: of the columns.
+        coefficients: (p,) of all columns, SI.
+        chosen: number of each chosen cause, and the covariance of its parameters.
+        how: filters and decimation.
+        links: what was found of links beside their motors.
+
+    Returns:
+        The model.
+    """
+    arm = layout.arm
+    stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
+    gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
+    return MotionModel(
+        arm=arm,
+        how=how,
+        kind="current" if layout.with_gains else "torque",
+        joints=stated + coefficients[layout.own].reshape(-1, OWN),
+        inertial=arm.inertial + layout.inertial_scale * coefficients[layout.inertial],
+        gains=gains,
+        causes=tuple(
+            FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
+            for number, covariance in chosen
+        ),
+        response=float(coefficients[layout.response][0]),
+        links=links,
+    )
+
+
+def predicted_torque(model: MotionModel, stretches: Sequence[Stretch]) -> list[Array]:
+    """The torque at every sample of stretches, neither low-passed nor thinned.
+
+    Args:
+        model: the model.
+        stretches: even samples; ``effort`` is not looked at.
+
+    Returns:
+        (N, m) of each stretch.
+    """
+    return _at_samples(model, stretches, lambda signals: model.torque(signals, 1 / signals.period))
+
+
+def predicted_links(model: MotionModel, stretches: Sequence[Stretch]) -> list[Array]:
+    """Where encoders of links stand at every sample, by the motors' positions.
+
+    Args:
+        model: the model.
+        stretches: even samples; neither ``effort`` nor ``link`` is looked at.
+
+    Returns:
+        (N, m) of each stretch, rad (m); NaN of joints of which the model knows nothing.
+    """
+    return _at_samples(model, [replace(stretch, link=None) for stretch in stretches], model.link_positions)
+
+
+def _at_samples(model: MotionModel, stretches: Sequence[Stretch], says: Callable[[Signals], Array]) -> list[Array]:
+    found = [np.full(stretch.q.shape, np.nan) for stretch in stretches]
+    for number, stretch in enumerate(stretches):
+        how = replace(model.how, rate=stretch.rate)
+        for signals in parts([stretch], how, every_sample=True):
+            start = int(np.searchsorted(stretch.time, signals.time[0]))
+            found[number][start + signals.kept] = says(signals)[signals.kept]
+    return found

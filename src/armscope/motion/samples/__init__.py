@@ -1,0 +1,1 @@
+"""From recorded samples to even, filtered ones: time stamps, low-pass, derivatives."""

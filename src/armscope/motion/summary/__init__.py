@@ -1,0 +1,1 @@
+"""What a finished selection means: one question per file."""

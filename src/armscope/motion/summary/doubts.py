@@ -1,0 +1,91 @@
+"""Why a cause that the evidence asks for is to be taken with care: paths that don't tell its size, a link too loose."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.fitting.consistency import PARTS, PathAgreement
+from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.library import catalogue
+from armscope.motion.library.layout import NAMED_OF_OWN, OWN
+from armscope.motion.summary.constants import PLAUSIBLE
+from armscope.robot.dynamics import MovingArm
+
+
+def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement) -> str:
+    """What speaks against a chosen cause, or leaves it open, in a sentence or two.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+        agreed: what different paths say of it.
+
+    Returns:
+        The words; empty where nothing does.
+    """
+    told = []
+    if agreed.consistent is False:
+        told.append("Its size differs from path to path: take it as one way to say what happens, not as the cause.")
+    elif agreed.undetermined:
+        parts = "paths" if agreed.paths else PARTS
+        told.append(
+            f"Undetermined: no two {parts} tell its size by themselves. It may stand for a share of something else; "
+            "record another path before anything is changed for it."
+        )
+    return " ".join([*told, *too_loose(swing_hz(selected, number))])
+
+
+def too_loose(swing: float | None) -> list[str]:
+    """What is said of a link that swings on its drive at a frequency, Hz: nothing of one that no link has."""
+    if swing is None or swing >= PLAUSIBLE.slowest_swing_hz:
+        return []
+    return [
+        f"Its link would swing on it at {swing:.2g} Hz; arms' lowest resonances lie above "
+        f"{PLAUSIBLE.slowest_swing_hz:g} Hz as a rule. A belt may be so soft, a gear is not."
+    ]
+
+
+def swing_hz(selected: SelectedCauses, number: int) -> float | None:
+    """At which frequency a link swings on a drive that gives way, motor held, in its heaviest pose.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+
+    Returns:
+        Hz; None of other causes, or where it is not above zero.
+    """
+    placed = selected.rows.layout.placed[number]
+    compliance = float(selected.coefficients[selected.rows.layout.columns[number][0]])
+    if placed.cause is not catalogue.COMPLIANCE or compliance <= 0:
+        return None
+    return swing_of(selected.rows.layout.arm, selected.rows.q, placed.joints[0], compliance)
+
+
+def swing_of(arm: MovingArm, poses: Array, joint: int, compliance: float) -> float:
+    """At which frequency a link swings on a drive, motor held, in its heaviest pose.
+
+    Args:
+        arm: the arm.
+        poses: (K, m) positions in which it was.
+        joint: from 0.
+        compliance: of its drive, rad/(N m), above zero.
+
+    Returns:
+        Hz.
+    """
+    q = poses[:: max(len(poses) // PLAUSIBLE.poses, 1)]
+    still, turning = np.zeros_like(q), np.zeros_like(q)
+    turning[:, joint] = 1.0
+    inertia = (arm.torques(q, still, turning, arm.inertial) - arm.torques(q, still, still, arm.inertial))[:, joint]
+    return float(1 / (2 * np.pi * np.sqrt(max(compliance * inertia.max(), 1e-300))))
+
+
+def motion_hz(selected: SelectedCauses, joint: int) -> float:
+    """How fast a joint moves to and fro: RMS acceleration over RMS speed, as a frequency."""
+    rows = selected.rows
+    place = np.searchsorted(rows.at[joint], OWN * joint + NAMED_OF_OWN.index("inertia"))
+    faster = np.sqrt(np.mean(rows.columns[joint][:, place].astype(np.float64) ** 2))
+    speed = max(float(np.sqrt(np.mean(rows.dq[:, joint] ** 2))), 1e-300)
+    return float(faster / speed / (2 * np.pi))

@@ -1,0 +1,225 @@
+"""Motion that takes no part: the whole selection on the rest, and the error on what was held out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.normal_equations import total
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
+from armscope.motion.constants import NOISE
+from armscope.motion.fitting.rows import MotionRows
+from armscope.motion.fitting.selection import SelectedCauses, coefficients_of, gain_of
+from armscope.motion.fitting.weights import noise_of, weighed
+from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
+from armscope.motion.verdict import HeldOutMotion, Step, relative
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """A part of the motion that is held out, and what was selected on the rest.
+
+    Attributes:
+        rows: the rows that took no part.
+        which: (K,) which of the rows they are.
+        problem, found: on the rest.
+    """
+
+    rows: MotionRows
+    which: Indices
+    problem: Problem
+    found: Hypothesis
+
+
+def folds(selected: SelectedCauses) -> list[Fold]:
+    """Runs in turn; of a single run, the last two fifths once."""
+    count = len(selected.blocks)
+    single = len(set(selected.rows.run.tolist())) == 1
+    parts = [tuple(range(3, NOISE.blocks_of_time))] if single else [(k,) for k in range(count)]
+    made = []
+    for held in parts:
+        problem = _of_the_rest(selected, held)
+        search = Search.on(problem)
+        also = search.evaluated(selected.best.chosen, selected.best)
+        found = search.best((selected.best.background,), also=also, local=False)
+        which = np.flatnonzero(np.isin(selected.block, held))
+        made.append(Fold(selected.rows, which, problem, found))
+    return made
+
+
+def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
+    """The sums of what is not held out, by its own noise: what one path leaves is not what all of them leave."""
+    rest = [number for number in range(len(selected.blocks)) if number not in held]
+    problem = selected.problem.with_equations(total([selected.blocks[number] for number in rest]))
+    fitted = Search.on(problem).evaluated(selected.best.chosen, selected.best)
+    rows = selected.rows
+    left = rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted))
+    among = selected.weights.row * np.isin(selected.block, rest)[:, None]
+    parts = [part for number in rest for part in selected.by_joint[number]]
+    return problem.with_equations(weighed(rows, parts, noise_of(rows, left, among)))
+
+
+def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
+    """Runs that were kept out of the selection altogether."""
+    return Fold(rows, np.arange(len(rows)), selected.problem, selected.best)
+
+
+@dataclass(frozen=True, eq=False)
+class HeldOutTorque:
+    """Torques of K rows that took no part; (K, m) N m or N.
+
+    Attributes:
+        rows: the table that they are of; `which`: (K,) their numbers in it.
+        measured: low-passed.
+        stated: by the arm as stated, nothing fitted.
+        background: with friction and rotor inertia of every joint fitted.
+        model: with masses held near the stated ones, and the causes.
+    """
+
+    rows: MotionRows
+    which: Indices
+    measured: Array
+    stated: Array
+    background: Array
+    model: Array
+
+    @property
+    def moving(self) -> Array:
+        """(K, m) 1 where a joint moves, 0 where it stands."""
+        return np.asarray(1.0 - self.rows.still[self.which], dtype=np.float64)
+
+
+def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
+    """What was measured where nothing was fitted, and what models fitted to the rest say of it."""
+    made = []
+    for fold in parts:
+        stated = fold.rows.nominal[fold.which]
+        friction = Search.on(fold.problem).perfect()
+        background, model = (stated + _modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
+        made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
+    return tuple(made)
+
+
+def measure(held: Sequence[HeldOutTorque], what: str) -> HeldOutMotion:
+    """Errors on all that was held out, together.
+
+    Args:
+        held: torques of what was held out.
+        what: which motion that is, in words.
+
+    Returns:
+        Errors relative to the torque.
+    """
+    whole = np.concatenate([part.measured for part in held])
+    moving = np.concatenate([part.moving for part in held])
+    stated, background, model = (
+        moving * (whole - np.concatenate([getattr(part, name) for part in held]))
+        for name in ("stated", "background", "model")
+    )
+    whole = moving * whole
+    return HeldOutMotion(
+        stated=relative(stated, whole),
+        background=relative(background, whole),
+        model=relative(model, whole),
+        by_joint=tuple(float(v) for v in np.sqrt(np.sum(model**2, axis=0) / np.maximum(moving.sum(axis=0), 1))),
+        what=what,
+    )
+
+
+def errors_by_run(held: Sequence[HeldOutTorque]) -> dict[str, float]:
+    """The model's error on each run, relative to its torque."""
+    errors = {}
+    for part in held:
+        run = part.rows.run[part.which]
+        for name in dict.fromkeys(run.tolist()):
+            there = part.moving * (run == name)[:, None]
+            errors[name] = relative(there * (part.measured - part.model), there * part.measured)
+    return errors
+
+
+def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
+    return fold.rows.modelled(coefficients_of(fold.problem, hypothesis), fold.which)
+
+
+def waterfall(
+    selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int], labels: Sequence[str]
+) -> tuple[Step, ...]:
+    """Errors with one cause after the other, each fitted again.
+
+    Args:
+        selected: the selection.
+        parts: what is held out.
+        order: candidates in the order in which they come in.
+        labels: their names.
+
+    Returns:
+        Nothing but friction; masses held near the stated ones; then each cause.
+    """
+    best = selected.best
+    by_candidate = {effect.candidate: effect for effect in best.chosen}
+    states: list[tuple[str, tuple[int, ...], bool]] = [
+        ("friction and rotors", (), False),
+        ("masses near the stated", (), True),
+    ]
+    states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
+    steps = []
+    for label, members, masses in states:
+        background = best.background if masses else selected.space.no_background
+        chosen = tuple(by_candidate[c] for c in members)
+
+        whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
+        fitted = relative(*_errors(whole, chosen, background))
+        held = [_errors(fold, chosen, background) for fold in parts]
+        steps.append(
+            Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
+        )
+    return tuple(steps)
+
+
+def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[float, ...]:
+    """Errors when the whole model's numbers are entered into a simulator one after the other, nothing fitted again.
+
+    No simulator knows how friction changes sides here, nor takes friction below zero: both are left out.
+
+    Args:
+        selected: the selection.
+        parts: what is held out; the numbers are fitted to the rest.
+        order: candidates in the order in which they are entered.
+
+    Returns:
+        With friction and rotors; then with masses and gains as fitted and the first cause; then with each cause more.
+    """
+    layout, best = selected.rows.layout, selected.best
+    own = layout.own.reshape(-1, OWN)[:, 1:CAUSES_OF_OWN]
+    causes = [layout.columns[number] for number in order]
+    friction = np.setdiff1d(own, np.concatenate([np.empty(0, dtype=np.intp), *causes]))
+    masses = np.concatenate([layout.inertial, layout.gains])
+    states = [friction, *(np.concatenate([friction, masses, *causes[: n + 1]]) for n in range(len(causes)))]
+    missed: list[list[Array]] = [[] for _ in states]
+    torques: list[Array] = []
+    for fold in parts:
+        fitted = coefficients_of(fold.problem, evaluate(fold.problem, best.chosen, best.background, fold.found.noise))
+        stated = np.nan_to_num(layout.arm.stated_background[:, 1:3])
+        fitted[own[:, :2]] = np.maximum(fitted[own[:, :2]], -stated)
+        moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
+        torques.append(moving * torque)
+        for columns, found in zip(states, missed, strict=True):
+            entered = np.zeros_like(fitted)
+            entered[columns] = fitted[columns]
+            rows = replace(fold.rows, gain=gain_of(layout, entered))
+            said = rows.nominal[fold.which] + rows.modelled(entered, fold.which)
+            found.append(moving * (torque - said))
+    return tuple(relative(np.concatenate(found), np.concatenate(torques)) for found in missed)
+
+
+def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
+    """(residuals, torque) of the fold's rows with causes fitted on its sums."""
+    fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
+    moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
+    return moving * (torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)), moving * torque

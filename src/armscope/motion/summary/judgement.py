@@ -1,0 +1,280 @@
+"""The verdict: what the selected causes mean, in words and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.numerals import rounded
+from armscope.core.types import Array
+from armscope.inference.shapley import shares
+from armscope.motion.constants import TELLING
+from armscope.motion.fitting.consistency import PathAgreement, agreement
+from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.layout import OWN
+from armscope.motion.summary.confounding import gains_instead
+from armscope.motion.summary.doubts import doubt_of
+from armscope.motion.summary.intervals import Sureness, covariance_of
+from armscope.motion.summary.lasting import LastingTorque
+from armscope.motion.summary.rivals import listed_rivals
+from armscope.motion.summary.words import clause, cure
+from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
+from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
+from armscope.verdict.schema import Answer
+from armscope.verdict.wording import capitalised, percent, spelled
+
+
+def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:
+    """Every chosen cause with what is known about it, largest first, beside its candidate's number."""
+    best = selected.best
+    explained = _shares(selected)
+    found = []
+    for number, effect in enumerate(best.chosen):
+        placed = selected.rows.layout.placed[effect.candidate]
+        agreed = agreement(selected, effect.candidate)
+        found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (explained[number], agreed))))
+    return sorted(found, key=lambda pair: -pair[1].share)
+
+
+def _found(
+    selected: SelectedCauses, sure: Sureness, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
+) -> FoundCause:
+    share, agreed = known
+    layout = selected.rows.layout
+    columns = layout.columns[number]
+    coefficients = np.zeros(layout.width)
+    coefficients[columns] = selected.coefficients[columns]
+    rms = np.sqrt(np.mean(selected.rows.modelled(coefficients) ** 2, axis=0))
+    relative = rms / selected.weights.sigma
+    joint = int(np.argmax(relative))
+    parameters = cause_parameters(selected, number, sure.factor)
+    return FoundCause(
+        effect=placed.cause.name,
+        location=placed.location,
+        family=placed.cause.family,
+        driver=placed.driver,
+        title=title(placed),
+        minor=share < TELLING.minor_share,
+        parameters=parameters,
+        rms=float(rms[joint]),
+        unit="N" if layout.arm.sliding[joint] else "N m",
+        joint=f"joint {joint + 1}",
+        share=share,
+        evidence_nats=float(sure.search.log_odds(selected.best, number)),
+        alternatives=_alternatives(selected, sure, number),
+        carries_over=agreed.words,
+        consistent=agreed.consistent,
+        physics=placed.cause.physics,
+        confirm=placed.cause.confirm,
+        cure=cure(placed, parameters, layout.arm),
+        doubt=doubt_of(selected, number, agreed),
+    )
+
+
+def title(placed: PlacedCause) -> str:
+    """The name in words."""
+    where = f" in run {placed.runs[0]}" if placed.runs else ""
+    if placed.cause.nameless:
+        return f"an unknown torque at {placed.location} that follows the {placed.driver}"
+    name = placed.cause.name.replace("_", " ")
+    place = "" if placed.location == "payload" else f" at {placed.location}"
+    return f"{name}{place}{where}"
+
+
+def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tuple[Parameter, ...]:
+    """A cause's numbers with standard errors.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+        factor: (p,) on the standard error of every column.
+
+    Returns:
+        Those that were fitted, then those that were scanned, in the units of files.
+    """
+    placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
+    values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number, factor)))
+    told = [
+        Parameter(name, unit, float(value), float(error))
+        for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
+    ]
+    return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
+
+
+def _shares(selected: SelectedCauses) -> list[float]:
+    """Share of what friction and rotors leave, of each chosen cause.
+
+    Masses that are off unnamed come in like a cause: what a name and they explain alike, they share.
+    """
+    best, problem = selected.best, selected.problem
+    ridge = np.full(len(problem.scale), 1e12)
+    ridge[best.columns] = best.noise**2 / best.variance
+    members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
+    inertial = selected.rows.layout.inertial
+    masses = np.intersect1d(inertial, best.columns)
+    base = np.setdiff1d(best.columns, np.concatenate([masses, *members]))
+    both = [*members, masses] if len(masses) else members
+    return [float(share) for share in shares(problem.equations, ridge, base, both)][: len(members)]
+
+
+def _alternatives(selected: SelectedCauses, sure: Sureness, number: int) -> tuple[Alternative, ...]:
+    """What could stand in a cause's place, nearest first, each name once."""
+    gains = gains_instead(selected, number)
+    return listed_rivals(sure.search, selected.best, number, sure.rivals[number], () if gains is None else (gains,))
+
+
+def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBackground, ...]:
+    """Friction and rotor inertia of every joint."""
+    layout, best, problem = selected.rows.layout, selected.best, selected.problem
+    told = []
+    stated = np.nan_to_num(layout.arm.stated_background)
+    for j in range(layout.arm.n_motors):
+        slides = layout.arm.sliding[j]
+        torque, unit = ("N", "m") if slides else ("N m", "rad")
+        units = (torque, torque, f"{torque} s/{unit}", "kg" if slides else "kg m^2")
+        moving = ~selected.rows.still[:, j]
+        made = []
+        for k, what in enumerate(("offset", "coulomb", "viscous", "inertia")):
+            column = OWN * j + k
+            if column in best.columns and moving.any():
+                error = sure.factor[column] * np.sqrt(best.variances(np.array([column]))[0]) / problem.scale[column]
+                made.append(
+                    Parameter(what, units[k], float(selected.coefficients[column] + stated[j, k]), float(error))
+                )
+        rows = float(moving.sum() / selected.weights.correlated[j])
+        left = selected.residuals[moving, j]
+        noise = float(np.sqrt(np.mean(left**2))) if len(left) else float("nan")
+        told.append(JointBackground(f"joint {j + 1}", tuple(made), noise, torque, int(rows)))
+    return tuple(told)
+
+
+def unexplained(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -> UnexplainedTorque:
+    """The largest free curve, if one is not minor; else the largest torque that lasts and has no law at all."""
+    curves = [cause for cause in found if cause.nameless and not cause.minor]
+    if curves:
+        return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
+    if lasting:
+        return UnexplainedTorque(True, f"joint {lasting[0].joint + 1}", lasting[0].driver, lasting_words(lasting[:1]))
+    return UnexplainedTorque(False)
+
+
+def lasting_words(lasting: Sequence[LastingTorque]) -> str:
+    """What lasts and has no law, joint by joint, in a sentence without its full stop."""
+    told = [
+        f"{percent(each.of_torque)} of the torque of joint {each.joint + 1}, following the {each.driver}"
+        for each in lasting
+    ]
+    return f"something lasts that has no law here: {'; '.join(told)}"
+
+
+@dataclass(frozen=True)
+class HeldOutErrors:
+    """Of torque on motion that took no part, relative to it.
+
+    Attributes:
+        without: with friction and rotors alone.
+        anew: with causes found without that motion.
+        named: with the causes that all of the motion names, their sizes found without it.
+    """
+
+    without: float
+    anew: float
+    named: float
+
+    @property
+    def worse(self) -> bool:
+        """Whether causes that are found anew help nothing."""
+        return self.anew >= self.without
+
+    @property
+    def foretells_nothing(self) -> bool:
+        """Whether the model foretells the torque no better than a torque of zero would."""
+        return self.anew >= 1
+
+    @property
+    def no_answer(self) -> bool:
+        """Whether the named ones don't clearly help either."""
+        return self.worse and self.named > TELLING.clearly_better * self.without
+
+    def words(self) -> str:
+        """How well torque is met, in a sentence."""
+        without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
+        if not self.worse:
+            return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
+        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
+        return f"{told}; to {anew} where the causes, too, are found without it."
+
+
+def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: HeldOutErrors) -> tuple[Answer, bool]:
+    """The answer in two words, and whether there is a mismatch.
+
+    Args:
+        found: the causes.
+        left: what has none.
+        errors: on motion that took no part; names that don't help there are no answer.
+
+    Returns:
+        Both.
+    """
+    if not found:
+        return ("cannot tell", True) if left.present or errors.foretells_nothing else ("nothing missing", False)
+    if errors.no_answer:
+        return "cannot tell", True
+    named = [cause for cause in found if not cause.nameless and not cause.minor]
+    if left.present:
+        return ("partly explained" if named else "cannot tell"), True
+    return "explained", True
+
+
+def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequence[LastingTorque] = ()) -> str:
+    """The largest causes with what each has of the torque that friction and rotors leave, the others by family.
+
+    Args:
+        found: the causes, largest first.
+        errors: on motion that took no part.
+        lasting: what lasts and has no law, largest first.
+
+    Returns:
+        A sentence or some.
+    """
+    main = [cause for cause in found if not cause.minor]
+    beyond = f"{capitalised(lasting_words(lasting[:1]))}. " if lasting else ""
+    if not found and lasting:
+        return f"{beyond}No cause of the library explains it. {errors.words()}"
+    if not found:
+        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
+        if errors.foretells_nothing:
+            return (
+                "Cannot tell what is missing: the model foretells these torques no better than none at all, and no "
+                f"cause mends it. Are they of this motion, and of this arm? {met}"
+            )
+        return f"Nothing is missing beyond friction and rotors of the joints. {met}"
+    told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
+    of_what = (" of what friction and rotors leave", *[""] * len(told))
+    if errors.no_answer:
+        doubt = "Cannot tell what is missing: nothing that was found helps on motion that took no part"
+        return f"{doubt}. The reading that fits best: {clause(told[0])}. {errors.words()}"
+    causes = "; ".join(
+        f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
+    )
+    return f"{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
+
+
+ON_HELD_OUT = "On held-out motion"
+"""How the sentence of a headline begins that says how well torque is met."""
+
+
+def _further(causes: Sequence[FoundCause]) -> str:
+    """What a headline doesn't name, by family: where there is more of it."""
+    if not causes:
+        return ""
+    places: dict[str, list[str]] = {}
+    for cause in causes:
+        places.setdefault(cause.family, []).append(cause.location)
+    kinds = {UNKNOWN: "torque without a known law"}
+    told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
+    count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
+    return f"{capitalised(count)}: {', '.join(told)} – {percent(sum(c.share for c in causes))}. "

@@ -1,0 +1,52 @@
+"""Friction that changes sides later than the speed by more than presliding and filters do: told, though it has no name.
+
+Every joint's friction may turn over some milliseconds late unnamed (`layout.OWN_NAMES`), and where dry friction is most
+of a joint's torque, nothing but that moment tells a delay of all torque. So no cause is named for it; but it is there.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.numerals import rounded
+from armscope.motion.constants import PRIOR
+from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.library import catalogue
+from armscope.motion.library.layout import OWN
+from armscope.motion.summary.intervals import Sureness, level_of_gains
+from armscope.verdict.effects import INTERVAL
+from armscope.verdict.schema import Notice
+
+
+def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
+    """What is said of joints whose friction changes sides late, or early, without a delay being named there.
+
+    Args:
+        selected: the selection.
+        sure: how wide intervals are. Gains of all drives that are off alike make no moment later.
+
+    Returns:
+        A notice, or none.
+    """
+    layout, best = selected.rows.layout, selected.best
+    named = {layout.placed[n].joints[0] for n in best.candidates if layout.placed[n].cause is catalogue.DELAY}
+    told, level = [], level_of_gains(layout)
+    for j, column in enumerate(layout.reversals[:, 1]):
+        dry = selected.coefficients[OWN * j + 1] + np.nan_to_num(layout.arm.stated_background[j, 1])
+        if j in named or dry <= 0 or column not in best.columns:
+            continue
+        slope = selected.coefficients[column]
+        error = float(np.sqrt(best.variances(np.array([column]))[0])) / selected.problem.scale[column]
+        apart = np.sqrt(max((sure.factor[column] * error) ** 2 - (level * slope) ** 2, error**2))
+        late, unsure = slope / dry, INTERVAL * apart / dry
+        if abs(late) - unsure > PRIOR.turning_s:
+            told.append(f"joint {j + 1} {rounded(1e3 * late)} ± {rounded(1e3 * unsure)} ms")
+    if not told:
+        return []
+    text = (
+        f"Friction changes sides later than the speed: {', '.join(told)} (below zero: sooner). It clings over a way, "
+        "or torque is recorded so late (a delay); where friction is most of a joint's torque, motion does not tell "
+        "which. Turn the joint to and fro at two speeds: friction that clings comes back over the same angle, a delay "
+        "after the same time."
+    )
+    return [Notice("late friction", text)]

@@ -1,0 +1,149 @@
+"""Names that the evidence asks for and that still can't stand: impossible sizes, names that cancel, no other path.
+
+Evidence compares what the library has. Where the truth is not in it, the best of its names fit by numbers that no arm
+has, by taking each other's torque back, or on one path only; each of these shows that the name is wrong.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.motion.constants import CONSISTENCY, PRIOR
+from armscope.motion.fitting.consistency import Weighed, agreement
+from armscope.motion.fitting.selection import SelectedCauses, at_own_gain, chosen
+from armscope.motion.fitting.space import build_space
+from armscope.motion.library import catalogue
+from armscope.motion.library.laws import is_of_a_gain
+from armscope.motion.library.layout import OWN
+from armscope.motion.summary.doubts import motion_hz, swing_hz
+
+
+def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
+    """The selection without names that can't stand; what takes their place is weighed anew, and judged alike.
+
+    Args:
+        selected: what the evidence asks for.
+        rate: samples per second.
+
+    Returns:
+        A selection, all of whose names can stand.
+    """
+    barred: frozenset[int] = frozenset()
+    torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
+    for _ in range(CONSISTENCY.judged):
+        wrong = frozenset({*_impossible(selected), *_cancelling(selected), *_of_one_path(selected)})
+        if not wrong:
+            break
+        barred |= wrong
+        space = build_space(selected.rows.layout, torque, rate, barred)
+        kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
+        again = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
+        selected = at_own_gain(again)
+    return selected
+
+
+def _impossible(selected: SelectedCauses) -> Iterator[int]:
+    """Friction or rotors below zero, the stated part counted in, by more than two standard errors; links that swing;
+    gains that no drive has.
+
+    A link that swings on its drive more slowly than its motor moves is not where motor and torque put it.
+    """
+    layout, stated = selected.rows.layout, np.nan_to_num(selected.rows.layout.arm.stated_background)
+    most = PRIOR.largest_gain
+    for number in selected.best.candidates:
+        placed, columns = layout.placed[number], layout.columns[number]
+        least = np.full(len(columns), -np.inf)
+        if placed.of_background is not None and placed.of_background[1] > 0:
+            least[:] = -stated[placed.of_background]
+        elif placed.cause is catalogue.COUPLED_FRICTION:
+            least[:] = 0.0
+        elif placed.cause is catalogue.STRIBECK:
+            least[0] = 0.0
+        elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
+            yield number
+        error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+        if np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error):
+            yield number
+        elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
+            yield number  # no link follows a motor that moves to and fro faster than it swings itself
+    yield from _in_place_of_friction(selected)
+
+
+def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
+    """Laws of a joint's own torque beside which its dry friction would have to be below zero: it is that friction."""
+    layout, best = selected.rows.layout, selected.best
+    for number in best.candidates:
+        placed, column = layout.placed[number], np.array([OWN * layout.placed[number].joints[0] + 1])
+        if placed.driver not in (catalogue.SCALE, catalogue.PLAY) or column[0] not in best.columns:
+            continue
+        error = float(np.sqrt(best.variances(column)[0])) / selected.problem.scale[column[0]]
+        stated = np.nan_to_num(layout.arm.stated_background[placed.joints[0], 1])
+        if selected.coefficients[column[0]] + stated < -CONSISTENCY.below * error:
+            yield number
+
+
+def _cancelling(selected: SelectedCauses) -> Iterator[int]:
+    """The lesser of two names at one joint of which each takes back most of the other's torque."""
+    layout = selected.rows.layout
+    named = [n for n in selected.best.candidates if layout.placed[n].cause is not catalogue.CURVE]
+    at_joint = [n for n in named if len(layout.placed[n].joints) == 1]
+    for one, other in itertools.combinations(at_joint, 2):
+        if layout.placed[one].joints != layout.placed[other].joints:
+            continue
+        first, second = _torque(selected, one), _torque(selected, other)
+        least = min(np.linalg.norm(first), np.linalg.norm(second))
+        if np.linalg.norm(first + second) < CONSISTENCY.cancelled * least:
+            yield one if np.linalg.norm(first) < np.linalg.norm(second) else other
+
+
+def _torque(selected: SelectedCauses, number: int) -> Array:
+    """(K,) that a cause makes at its joint."""
+    layout = selected.rows.layout
+    coefficients, columns = np.zeros(layout.width), layout.columns[number]
+    coefficients[columns] = selected.coefficients[columns]
+    return selected.rows.modelled(coefficients)[:, layout.placed[number].joints[0]]
+
+
+def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
+    """Whose size differs from path to path, or that makes the motion of paths that took no part no better known."""
+    gains = held_out_gains(selected)
+    for number in selected.best.candidates:
+        if agreement(selected, number).consistent is False or gains[number] <= 0:
+            yield number
+
+
+def held_out_gains(selected: Weighed) -> dict[int, float]:
+    """Nats by which each cause betters the middle one of the blocks that took no part in its fit.
+
+    Not their sum: where one run has something of its own, a payload say, what that leaves there drowns all else.
+
+    Args:
+        selected: a selection.
+
+    Returns:
+        By number of each chosen cause.
+    """
+    best = selected.best
+    gains: dict[int, list[float]] = {number: [] for number in best.candidates}
+    for held, block in enumerate(selected.blocks):
+        rest = total([other for number, other in enumerate(selected.blocks) if number != held])
+        problem, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
+        whole = _misfit(problem, apart, best, best.chosen)
+        for number in gains:
+            kept = tuple(effect for effect in best.chosen if effect.candidate != number)
+            gains[number].append((_misfit(problem, apart, best, kept) - whole) / (2 * best.noise**2))
+    return {number: float(np.median(each)) for number, each in gains.items()}
+
+
+def _misfit(problem: Problem, apart: NormalEquations, best: Hypothesis, effects: tuple[SelectedEffect, ...]) -> float:
+    """Squares that effects, fitted elsewhere, leave of a block, less its own."""
+    fitted = evaluate(problem, effects, best.background, best.noise)
+    at = fitted.columns
+    return float(fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean)

@@ -1,0 +1,45 @@
+"""A cause of a moving arm in words: a clause for the headline, and its cure with sign and number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from armscope.motion.library.catalogue import cause_named
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.clauses import rms_of
+from armscope.motion.library.remedies import Fitted
+from armscope.motion.verdict import FoundCause
+from armscope.robot.dynamics import MovingArm
+from armscope.verdict.effects import Parameter
+
+
+def clause(cause: FoundCause) -> str:
+    """Who does what, by how much: one cause in a sentence.
+
+    Args:
+        cause: with its parameters.
+
+    Returns:
+        The clause, small first letter.
+    """
+    known = cause_named(cause.effect)
+    say = known.clause if known else None
+    numbers = {parameter.name: parameter for parameter in cause.parameters}
+    told = say(cause, numbers) if say else f"{cause.title} ({rms_of(cause)})"
+    _, _, run = cause.title.partition(" in run ")
+    return f"in run {run} {told}" if run else told
+
+
+def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -> str:
+    """What to change, with sign and number where the cause has one number, or few.
+
+    Args:
+        placed: the cause at its place.
+        parameters: as fitted.
+        arm: as stated.
+
+    Returns:
+        A sentence or two; the cause's own words where it is a curve or a wave, which model.yaml holds.
+    """
+    remedy = placed.cause.remedy
+    return remedy(Fitted(placed, tuple(parameters), arm)) if remedy else placed.cause.cure

@@ -1,0 +1,80 @@
+"""Dry friction some milliseconds ago: changes sides between samples where the motion did, and is rounded off there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.motion.library.dry_friction import DryFriction, own_columns
+from armscope.motion.samples.preparation import Signals, without_lag
+from tests.motion.moving import robot
+
+RATE, LATE_S, DRY, VISCOUS = 100.0, 0.0337, 5.0, 2.0
+ARM = robot()
+
+
+def motion(rate: float) -> Signals:
+    time = np.arange(int(8 * rate)) / rate
+    q, dq, ddq = (np.column_stack([each] * 3) for each in (time * 0, np.sin(2 * time), 2 * np.cos(2 * time)))
+    return Signals("", 0, time, q, dq, ddq, q[:0], None, None, np.arange(len(time)))
+
+
+def torque(signals: Signals) -> np.ndarray:
+    return DRY * DryFriction.of(ARM, np.full(3, DRY)).side(signals, 0) + VISCOUS * signals.dq[:, 0]
+
+
+def low(values: np.ndarray, rate: float, every: int = 1) -> np.ndarray:
+    return without_lag(values, 15.0, rate, 200)[::every]
+
+
+def test_a_late_torque_is_that_of_a_hundred_times_finer_samples() -> None:
+    coarse, fine = motion(RATE), motion(100 * RATE)
+    true = low(np.interp(fine.time - LATE_S, fine.time, torque(fine)), 100 * RATE, 100)
+    dry = DryFriction.of(ARM, np.full(3, DRY))
+    found = low(dry.delayed(coarse, torque(coarse), 0, LATE_S), RATE)
+    inside = slice(50, -50)
+    assert np.abs(found - true)[inside].max() < 0.02 * DRY
+    # a straight line between samples is off by more than twice that, and more near reversals asks for a law
+    straight = low(np.interp(coarse.time - LATE_S, coarse.time, torque(coarse)), RATE)
+    assert np.abs(straight - true)[inside].max() > 0.04 * DRY
+
+
+def test_a_torque_in_time_is_itself() -> None:
+    signals = motion(RATE)
+    dry = DryFriction.of(ARM, np.full(3, DRY))
+    assert dry.delayed(signals, torque(signals), 0, 0.0) == pytest.approx(torque(signals))
+
+
+def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
+    signals = motion(RATE)
+    dry, both = DryFriction.of(ARM, np.full(3, DRY)), np.column_stack([torque(signals)] * 3)
+    late = 5 / RATE
+    rounded = dry.rounded(signals, both, np.array([0.0, late, 0.0]), RATE)
+    assert rounded[20:-20, 1] == pytest.approx(rounded[15:-25, 0], abs=0.02 * np.abs(rounded).max())
+    assert np.array_equal(rounded[:, 0], rounded[:, 2])
+
+
+def test_a_motion_of_some_time_ago_is_its_own_whatever_was_asked_of_another() -> None:
+    signals, inside = motion(RATE), slice(20, -20)
+    signals.some_time_ago(0, LATE_S)
+    faster = replace(signals, dq=2 * signals.dq)
+    speed, acceleration = faster.some_time_ago(0, LATE_S)
+    before = signals.time - LATE_S
+    np.testing.assert_allclose(speed[inside], 2 * np.sin(2 * before)[inside], atol=1e-5)
+    np.testing.assert_allclose(acceleration[inside], 2 * np.cos(2 * before)[inside], atol=1e-5)
+
+
+def test_only_how_friction_turns_is_seen_later_where_a_joint_is_late() -> None:
+    signals = motion(RATE)
+    columns = own_columns(ARM, signals, np.array([0.0, 3 / RATE, 0.0]))
+    assert np.array_equal(columns[:, 0, :4], columns[:, 1, :4])
+    assert columns[20:-20, 1, 4:] == pytest.approx(columns[17:-23, 0, 4:], abs=1e-6 * np.abs(columns).max())
+
+
+def test_friction_that_turns_later_than_its_speed_does() -> None:
+    signals = motion(RATE)
+    later = DryFriction.of(ARM, np.ones(3), 0.02).side(signals, 0)
+    at = replace(signals, dq=signals.dq - 0.02 * signals.ddq)
+    assert later == pytest.approx(DryFriction.of(ARM, np.ones(3)).side(at, 0))

@@ -1,0 +1,80 @@
+"""What speaks against a cause that the evidence asks for, and what leaves it open."""
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from armscope.motion.constants import NOISE
+from armscope.motion.fitting.consistency import PathAgreement
+from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
+from armscope.motion.summary import doubts, tenable
+from armscope.recordings.motions import as_motions
+from tests.motion.moving import behind_its_drive, robot
+
+SOFT = 6e-3
+NOTHING = PathAgreement(np.array([1.0, 1.0]), np.array([0.1, 0.1]))
+
+
+@pytest.fixture(scope="module")
+def gives_way() -> MotionDiagnosis:
+    return diagnose_motion(robot(), as_motions(behind_its_drive(robot(), 2, SOFT), "motions.csv", 3))
+
+
+def number_of(found: MotionDiagnosis) -> int:
+    (number,) = found.selected.best.candidates
+    return number
+
+
+def test_a_size_that_no_two_paths_tell_is_undetermined(gives_way: MotionDiagnosis) -> None:
+    number = number_of(gives_way)
+    alone = np.array([1.0, 1.1]), np.array([0.1, 2.0])
+    told = doubts.doubt_of(gives_way.selected, number, PathAgreement(*alone))
+    assert told.startswith("Undetermined: no two paths tell its size by themselves.")
+    assert "no two fifths of the motion" in doubts.doubt_of(gives_way.selected, number, PathAgreement(*alone, False))
+    assert NOISE.blocks_of_time == 5  # fifths
+    in_one_run = PathAgreement(*alone, True, ("path 2",))
+    assert doubts.doubt_of(gives_way.selected, number, in_one_run) == ""
+    assert in_one_run.words == "it is there in run path 2 only: no other path tells its size"
+
+
+def test_a_size_that_differs_is_doubtful_and_one_that_agrees_is_not(gives_way: MotionDiagnosis) -> None:
+    number = number_of(gives_way)
+    differs = PathAgreement(np.array([2.0, -0.5]), np.array([0.05, 0.05]))
+    assert "differs from path to path" in doubts.doubt_of(gives_way.selected, number, differs)
+    assert doubts.doubt_of(gives_way.selected, number, NOTHING) == ""
+    assert gives_way.verdict.effects[0].doubt == ""
+    assert "in doubt" not in gives_way.verdict.headline
+
+
+def test_a_link_swings_on_its_drive_by_the_inertia_behind_it(gives_way: MotionDiagnosis) -> None:
+    model = robot().model
+    data = model.createData()
+    (compliance,) = gives_way.verdict.effects[0].parameters[:1]
+    heaviest = max(pin.crba(model, data, q)[2, 2] for q in gives_way.selected.rows.q[::10])
+    expected = 1 / (2 * np.pi * np.sqrt(compliance.value * heaviest))
+    assert doubts.swing_hz(gives_way.selected, number_of(gives_way)) == pytest.approx(expected, rel=0.02)
+
+
+def test_a_link_that_would_swing_slowly_is_doubtful(
+    gives_way: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(doubts, "swing_hz", lambda *_: 3.21)
+    told = doubts.doubt_of(gives_way.selected, number_of(gives_way), NOTHING)
+    assert "would swing on it at 3.2 Hz" in told
+
+
+def test_no_link_swings_more_slowly_than_its_motor_moves(
+    gives_way: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    selected = gives_way.selected
+    assert tenable.tenable(selected, 200.0).best.candidates == selected.best.candidates
+    monkeypatch.setattr(tenable, "motion_hz", lambda *_: 1e3)
+    assert number_of(gives_way) not in tenable.tenable(selected, 200.0).best.candidates
+
+
+def test_how_fast_a_joint_moves_is_that_of_its_path(gives_way: MotionDiagnosis) -> None:
+    rows = gives_way.selected.rows
+    apart = np.gradient(rows.dq[:, 0], rows.time)[rows.run == rows.run[0]][3:-3]
+    speed = np.sqrt(np.mean(rows.dq[:, 0] ** 2))
+    expected = np.sqrt(np.mean(apart**2)) / speed / (2 * np.pi)
+    assert doubts.motion_hz(gives_way.selected, 0) == pytest.approx(expected, rel=0.15)

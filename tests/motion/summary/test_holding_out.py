@@ -1,0 +1,48 @@
+"""Errors on held-out motion that a work order promises: only numbers that a simulator takes are entered."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.inference.evidence import evaluate
+from armscope.motion.library.layout import OWN
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.summary.holding_out import as_entered, coefficients_of, folds
+from tests.motion.moving import COULOMB, moved, robot
+
+JOINT = 1
+
+
+def driving(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """Joint 2 has friction below zero, as a controller that does too much against it leaves in what is recorded."""
+    extra = np.zeros_like(q)
+    extra[:, JOINT] = -2 * COULOMB[JOINT] * np.sign(dq[:, JOINT])
+    return extra
+
+
+def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
+    arm = robot()
+    selected = diagnose_motion(arm, moved(arm, 3, driving), MotionSettings(cutoff=10.0)).selected
+    parts = folds(selected)
+    layout, best = selected.rows.layout, selected.best
+    dry = layout.own.reshape(-1, OWN)[:, 1]
+    fitted = [
+        coefficients_of(part.problem, evaluate(part.problem, best.chosen, best.background, part.found.noise))
+        for part in parts
+    ]
+    assert all(numbers[dry[JOINT]] < -0.5 * COULOMB[JOINT] for numbers in fitted)
+    assert all((np.delete(numbers[dry], JOINT) > 0).all() for numbers in fitted)
+    missed, torque = [], []
+    for part, numbers in zip(parts, fitted, strict=True):
+        entered = np.zeros_like(numbers)
+        own = layout.own.reshape(-1, OWN)[:, 1:4]
+        entered[own] = numbers[own]
+        entered[dry[JOINT]] = 0.0
+        moving = ~part.rows.still[part.which]
+        said = part.rows.nominal[part.which] + part.rows.modelled(entered, part.which)
+        missed.append(moving * (part.rows.torque[part.which] - said))
+        torque.append(moving * part.rows.torque[part.which])
+    by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
+    assert as_entered(selected, parts, ())[0] == pytest.approx(by_hand, rel=1e-6)

@@ -1,0 +1,42 @@
+"""Friction that turns over late is told although nothing has its name; what presliding and filters do is not."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.library.dry_friction import DryFriction
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.samples.preparation import Signals
+from armscope.verdict.schema import Notice
+from tests.motion.moving import COULOMB, moved, robot
+
+JOINT, RATE = 2, 200.0
+
+
+def notices(late_s: float) -> list[Notice]:
+    """What is said of an arm whose third joint's dry friction changes sides so late."""
+    arm = robot()
+
+    def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        time = np.arange(len(q)) / RATE
+        signals = Signals("", 0, time, q, dq, ddq, q[:0], None, None, np.arange(len(q)))
+        late, now = (DryFriction.of(arm, COULOMB, by).side(signals, JOINT) for by in (late_s, 0.0))
+        extra = np.zeros_like(q)
+        extra[:, JOINT] = COULOMB[JOINT] * (late - now)
+        return extra
+
+    verdict = diagnose_motion(arm, moved(arm, 3, clinging), MotionSettings(cutoff=10.0)).verdict
+    return [notice for notice in verdict.notices if notice.kind == "late friction"]
+
+
+def test_friction_that_clings_is_told_where_and_by_how_much() -> None:
+    (told,) = notices(0.012)
+    assert "joint 3 12 ±" in told.text
+    assert "joint 1" not in told.text
+    assert "joint 2" not in told.text
+
+
+def test_friction_in_time_with_its_speed_is_not() -> None:
+    assert not notices(0.0)
+    assert not notices(0.0015)

@@ -1,0 +1,43 @@
+"""Names that the evidence asks for and that still can't stand."""
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.selection import SelectedCauses, select_causes
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
+from armscope.motion.samples.timing import stretches
+from armscope.motion.summary.tenable import tenable
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
+
+STATED = [
+    {"coulomb_nm": float(c), "viscous_nm_s_rad": float(v), "rotor_inertia_kg_m2": float(r)}
+    for c, v, r in zip(COULOMB, VISCOUS, ROTOR, strict=True)
+]
+
+
+def driving(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """Dry friction at joint 2 that pushes instead of resisting."""
+    return np.column_stack([np.zeros(len(q)), -1.6 * COULOMB[1] * np.sign(dq[:, 1]), np.zeros(len(q))])
+
+
+@pytest.fixture(scope="module")
+def selected() -> SelectedCauses:
+    arm = robot(drives=STATED)
+    train = list(stretches(moved(robot(), 8, driving)))
+    how, first = chosen_cutoff(arm, train, 10.0)
+    layout = TorqueLayout(arm, tuple(place_causes(seen_in(arm, train, 0.02))), False)
+    return select_causes(layout, train, how, ("path 1", "path 2"), lambda text, share: None, first.model)
+
+
+def names(selected: SelectedCauses) -> set[tuple[str, str]]:
+    return {selected.space.candidates[number].key for number in selected.best.candidates}
+
+
+def test_friction_below_zero_is_no_friction(selected: SelectedCauses) -> None:
+    assert ("coulomb_friction", "joint 2") in names(selected)
+    assert ("coulomb_friction", "joint 2") not in names(tenable(selected, 200.0))
+    assert ("unknown", "joint 2") in names(tenable(selected, 200.0))
