@@ -19,6 +19,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 
 PLACE = "place"
+LEAST_SPAN_M = 0.01
+"""A tool that only turns on the spot sees the instrument at one place."""
 
 
 def _place_scale(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -56,6 +58,8 @@ def _place_distortion(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         return
     tool = forward_kinematics(arm, recordings.motor_angles)
     low, high = tool.min(axis=0), tool.max(axis=0)
+    if (high - low).max() < LEAST_SPAN_M:
+        return
     volume = (*((low + high) / 2).tolist(), float((high - low).max() / 2))
     terms = tuple(
         term(
