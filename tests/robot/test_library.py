@@ -78,6 +78,7 @@ def test_names_are_found_however_they_are_written():
         nominal_file("ur5x")
 
 
-def test_an_arm_named_in_place_of_a_file_gets_a_hint():
-    with pytest.raises(InputError, match=r"armscope init ur5e -o robot\.yaml"):
-        load_arm("ur5e")
+def test_an_arm_named_in_place_of_a_file_is_the_library_s():
+    assert load_arm("ur5e").description == nominal_description("ur5e")
+    with pytest.raises(InputError, match="readable"):
+        load_arm("ur5x")

@@ -5,6 +5,8 @@ Conventions: `armscope.world.effects`.
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -99,6 +101,14 @@ def _hide_lens(hidden: Hidden, scene: Scene, location: str, values: Values) -> N
         return np.asarray(values["amplitude"] * slope * np.sum(slope**2, axis=1, keepdims=True))
 
     hidden.bends.append(bend)
+
+
+def bent_space(points: Array) -> Iterator[Array]:
+    """Displacements (N, 3) along each axis by powers of the place, up to the third together: nearly any lens's."""
+    place = points - points.mean(axis=0)
+    for powers in itertools.product(range(4), repeat=3):
+        if sum(powers) <= 3:
+            yield from np.prod(place**powers, axis=1)[None, :, None] * np.eye(3)[:, None, :]
 
 
 def _hide_payload_mass(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
