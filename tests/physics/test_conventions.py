@@ -163,21 +163,6 @@ def test_an_instrument_that_reads_long_stretches_everything(arm: Arm, table: Rec
     np.testing.assert_allclose(stretched, 1.0001 * forward_kinematics(arm, table.motor_angles), rtol=1e-12)
 
 
-def test_an_instrument_that_errs_from_place_to_place_moves_readings_and_not_the_arm(arm: Arm) -> None:
-    table = full_table(arm, 60, seed=12)
-    (placed,) = [p for p in library(arm, table) if p.key == ("instrument_distortion", "instrument")]
-    names = [each.name for each in placed.terms]
-    scene, tool = Scene(arm, table), forward_kinematics(arm, table.motor_angles)
-    x, y = (2 * (axis - axis.min()) - np.ptp(axis) for axis in tool.T[:2])
-    u, v = x / np.ptp(tool, axis=0).max(), y / np.ptp(tool, axis=0).max()
-    values = np.zeros(len(names))
-    values[names.index("z_xx")], values[names.index("y_xy")] = 1e-3, -2e-3
-    posture = scene.posture([Part(placed, values)])
-    np.testing.assert_array_equal(posture.frames.tool, tool)
-    expected = np.column_stack([np.zeros_like(u), -2e-3 * u * v, 1e-3 * (3 * u**2 - 1) / 2])
-    np.testing.assert_allclose(posture.tool - tool, expected, atol=1e-15)
-
-
 def test_recorded_torque_is_the_load_where_it_is_recorded(arm: Arm, table: Recordings) -> None:
     from dataclasses import replace
 

@@ -133,23 +133,6 @@ def test_a_drive_that_hardens_is_commanded_away_by_the_rule_on_its_card() -> Non
     np.testing.assert_allclose(placed.effect.cure.commanded(Scene(world.arm, table), part), commanded, atol=1e-9)
 
 
-def test_readings_of_a_lens_that_bends_space_are_corrected_but_for_what_no_cubic_makes() -> None:
-    """The world's is a perspective camera's; a shift that is the same everywhere is the base's, which is free."""
-    world = world_with("instrument_distortion", "instrument")
-    table = world.table()
-    (placed,) = candidates("instrument_distortion", "instrument", world, table)
-    posture = Scene(world.arm, table).posture([])
-    shifts = np.tile(np.eye(3), (ROWS, 1))
-    X = np.hstack([np.stack([posture.column(term).ravel() for term in placed.terms], axis=1), shifts])
-    values = np.linalg.lstsq(X, (table.positions - posture.tool).ravel(), rcond=1e-10)[0][:-3]
-    cured = placed.effect.cure.readings(table.positions, Part(placed, values))
-    before, after = (rms(each - each.mean(axis=0)) for each in (table.positions - world.wanted, cured - world.wanted))
-    assert before > 0.5 * ERROR_M
-    assert after < 0.05 * before
-    wrong = placed.effect.cure.readings(table.positions, Part(placed, -values)) - world.wanted
-    assert rms(wrong - wrong.mean(axis=0)) > 1.9 * before
-
-
 def candidates(effect: str, place: str, world: World, table: Recordings) -> list[Placed]:
     """The library's forms of an effect at a place; those that are scanned for, at the numbers that were planted."""
     values = world.concealed[0].values
@@ -284,4 +267,4 @@ def test_a_tool_that_moved_is_cured_by_the_moved_tool_point() -> None:
 
 
 def test_every_effect_has_a_cure_that_was_tried() -> None:
-    assert {effect.name for effect in EFFECTS} == {*PLANTED, "payload_error", "tool_shift", "instrument_distortion"}
+    assert {effect.name for effect in EFFECTS} == {*PLANTED, "payload_error", "tool_shift"}

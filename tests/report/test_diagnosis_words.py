@@ -19,7 +19,6 @@ from tests.report.verdicts import compliance, found
 LOCATIONS = {
     "link_geometry": "link 2", "link_bending": "link 2", "thermal_expansion": "link 2", "base_drift": "base",
     "base_shift": "base", "base_compliance": "base", "tool_shift": "tool", "instrument_scale": "instrument",
-    "instrument_distortion": "instrument",
     "payload_error": "payload", "parallelogram_geometry": "parallelogram", "joint_coupling": "joint 6 from joint 5",
 }  # fmt: skip
 PARAMETERS = {

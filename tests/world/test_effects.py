@@ -9,9 +9,7 @@ from armscope.world.effects import LIBRARY, linear_numbers
 from armscope.world.effects_around import BASE
 from armscope.world.effects_of_joints import SOFT_SIDE
 from armscope.world.effects_of_links import close_loop
-from armscope.world.kinds import Concealed
 from armscope.world.outside import OUTSIDE
-from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden
 from armscope.world.strength import equilibrium
 from tests.world.by_hand import ARMS, HandArm
@@ -58,8 +56,7 @@ BASE_TWISTS = {
 }
 CHECKED_BELOW = {
     "backlash/load", "joint_compliance", "bearing_compliance", "base_compliance", "axis_wobble", "link_geometry",
-    "link_bending", "thermal_expansion", "parallelogram_geometry", "instrument_scale", "instrument_distortion",
-    "payload_error",
+    "link_bending", "thermal_expansion", "parallelogram_geometry", "instrument_scale", "payload_error",
     "payload_error/centre",
 }  # fmt: skip
 
@@ -227,20 +224,6 @@ def test_an_instruments_scale_stretches_everything_about_the_origin():
     scene, tool = scene_of("seven-axis")
     effect = drawn(scene, "instrument_scale", "instrument")
     assert moved(scene, effect) == pytest.approx(effect.values["scale"] * tool, abs=1e-15)
-
-
-def test_a_lens_shows_the_edge_of_its_picture_farther_out_and_the_middle_where_it_is():
-    scene, tool = scene_of("six-axis")
-    values = {"amplitude": 2e-4, "azimuth": 0.0, "distance": 5.0, "edge": 2.0}
-    shift = moved(scene, Concealed(KINDS["instrument_distortion"], "instrument", values))
-    camera = np.array([5.0, 0.0, 1.5])
-    for point, found in zip(tool, shift, strict=True):
-        ray = point - camera
-        depth = ray @ -camera / np.linalg.norm(camera)
-        beside = ray + depth * camera / np.linalg.norm(camera)
-        tangent = np.linalg.norm(beside) / depth
-        assert np.linalg.norm(found) == pytest.approx(2e-4 * (tangent / (2.0 / 5.0)) ** 3, rel=1e-9)
-        assert found @ beside == pytest.approx(np.linalg.norm(found) * np.linalg.norm(beside), rel=1e-9)
 
 
 def test_a_heavier_payload_bends_a_soft_joint_further_and_a_stiff_arm_not_at_all():

@@ -123,12 +123,6 @@ class PlausibleSizes(Constants):
         "judgement: a wrong unit of temperature or prism makes 0.1 %",
         unit="m/m",
     )
-    volume_m: float = constant(
-        3e-4,
-        "change of an instrument's error over its measuring volume",
-        "convention: makers of optical trackers state 0.1 to 0.35 mm over their volume; laser trackers a tenth of it",
-        unit="m",
-    )
     mass_share: float = constant(
         0.1,
         "error of a link's stated mass as a share of it",

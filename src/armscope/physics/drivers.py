@@ -14,7 +14,6 @@ from armscope.core.types import Array
 from armscope.physics.effect import Driver, DriverKind
 from armscope.physics.linkage_drivers import BARS
 from armscope.physics.load_drivers import LOADS
-from armscope.physics.place_drivers import PLACES
 from armscope.physics.recorded_drivers import RECORDED, side_of_approach
 
 if TYPE_CHECKING:
@@ -103,7 +102,6 @@ KINDS: dict[str, DriverKind] = {
     **LOADS,
     **RECORDED,
     **BARS,
-    **PLACES,
 }
 """All kinds of drivers by name; packages bring more (`armscope.physics.registry`)."""
 

@@ -15,7 +15,6 @@ from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Pro
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
-from armscope.physics.place_drivers import DEGREE
 from armscope.physics.registry import effects
 from armscope.physics.scene import Part
 from armscope.physics.wander import BASE_WANDER, LINK_WANDER
@@ -108,7 +107,7 @@ class Reader:
         return Product(direction, self._driver(driver, place), self._finite(factor, place))
 
     def _location(self, location: Any, axis: Any, place: str) -> str:
-        axes = {"instrument": ("scale", "tx", "ty", "tz"), "motor": ("turn",), "payload": ("mass",)}
+        axes = {"instrument": ("scale",), "motor": ("turn",), "payload": ("mass",)}
         kind = self._frame(location, ("base", "tool", "instrument", "payload", "joint", "link", "motor"), place)
         if axis not in axes.get(kind, AXES):
             raise InputError(self.source, place, axis, f"at {location} the axis is one of {axes.get(kind, AXES)}")
@@ -177,10 +176,6 @@ class Reader:
             least = 0 if name == "axis" else 1
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most[name]:
                 raise InputError(self.source, place, value, f"{name} is a whole number from {least} to {most[name]}")
-            return value
-        if name.startswith("degree"):
-            if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= DEGREE:
-                raise InputError(self.source, place, value, f"a degree is a whole number from 0 to {DEGREE}")
             return value
         number = self._finite(value, place)
         if name in ("width", "knee") and number <= 0:

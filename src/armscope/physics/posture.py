@@ -28,21 +28,19 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
-        shift: (N, 3) what the instrument adds to the tool point besides, m.
         moved, turned: what was computed of `displacement` and `turn`.
     """
 
     scene: Scene
     frames: Chain
     stretch: float = 0.0
-    shift: Array | float = 0.0
     moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
     turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
 
     @property
     def tool(self) -> Array:
         """(N, 3) tool points as the instrument sees them, in base axes, m."""
-        return self.frames.tool * (1 + self.stretch) + self.shift
+        return self.frames.tool * (1 + self.stretch)
 
     def displacement(self, direction: Direction) -> Array | None:
         """(N, 3) displacement of the tool point per unit of a direction, m; None where nothing moves."""
@@ -68,9 +66,7 @@ class Posture:
     def _displacements(self, location: str) -> dict[Direction, Array]:
         kind = Location.of(location).kind
         if kind == "instrument":
-            along = {Direction(location, name): np.eye(3)[axis] for axis, name in enumerate(AXES[:3])}
-            shifts = {direction: np.broadcast_to(one, self.frames.tool.shape) for direction, one in along.items()}
-            return {Direction(location, "scale"): self.frames.tool, **shifts}
+            return {Direction(location, "scale"): self.frames.tool}
         if kind == "motor":
             return _by_motor(joint_jacobian(self.frames) @ self.scene.arm.actuation)
         return _by_axis(location, twist_jacobian(self.frames, location)) if kind in FRAMES else {}

@@ -112,15 +112,17 @@ class Scene(LoadedArm):
         elif place.kind in FRAMES:
             yield direction.location, AXES.index(direction.axis), 1.0
 
-    def misread(self, parts: Sequence[Part]) -> tuple[float, Array]:
-        """The instrument's scale error and what else (N, 3) it adds to the tool point, m, of all parts together."""
-        stretch, shift = 0.0, np.zeros((len(self), 3))
-        for direction, amount in self.amounts([part for part in parts if part.placed.family == "instrument"]).items():
-            if direction.axis == "scale":
-                stretch = float(amount[0])
-            else:
-                shift[:, AXES.index(direction.axis)] += amount
-        return stretch, shift
+    def stretch(self, parts: Sequence[Part]) -> float:
+        """The instrument's scale error of all parts together."""
+        return float(
+            sum(
+                value * product.factor
+                for part in parts
+                for value, term in zip(part.values, part.placed.terms, strict=True)
+                for product in term.products
+                if product.direction.location == "instrument"
+            )
+        )
 
     def posture(self, parts: Sequence[Part] = ()) -> Posture:
         """The arm with some effects (and tool offsets, as parts) in place."""
@@ -130,11 +132,11 @@ class Scene(LoadedArm):
         frames = chain(self.arm, self.recordings.motor_angles, self.twists(giving or parts))
         if not giving or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
             frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if giving else frames
-            return Posture(self, frames, *self.misread(parts))
+            return Posture(self, frames, self.stretch(parts))
         # what only gives way moves the arm by little: turned frames and tools, which imitate each other, stay out of it
         bent = self._bent(frames)
         frames = chain(self.arm, self.recordings.motor_angles, bent.twists(parts))
-        return Posture(bent, frames, *self.misread(parts))
+        return Posture(bent, frames, self.stretch(parts))
 
 
 FARTHEST_M = 0.2

@@ -24,8 +24,6 @@ FAINT = (2.0, 3.0, 4.0, 5.0, 6.5, 9.0)
 FIXED_SEED = 20061103
 CAUSES = (3.0, 10.0)
 """Sizes of what stands out of a rough arm, in noise of a single reading."""
-CAME_LATER = ("instrument_distortion",)
-"""Kinds whose worlds stand at the end, so that those before them keep their numbers, and with them their seeds."""
 COMMON_KINDS = (
     "joint_compliance", "joint_compliance", "joint_offset", "joint_offset", "link_geometry", "link_geometry",
     "gear_eccentricity", "gear_eccentricity", "backlash", "bearing_compliance", "gear_ratio", "thermal_expansion",
@@ -58,12 +56,11 @@ def _spec(number: int, category: Category, recipe: Recipe, proof_seed: int) -> W
 
 
 def _full() -> Iterator[tuple[Category, Recipe]]:
-    names = [kind.name for kind in LIBRARY if kind.name not in CAME_LATER]
     for _ in range(48):
         yield "clean", _nothing
-    for name in names:
+    for kind in LIBRARY:
         for strength in STRENGTHS:
-            yield "single", _single(name, strength)
+            yield "single", _single(kind.name, strength)
     for number in range(48):
         yield "multiple", _several(2 + number % 5, weak=number % 4 == 3)
     for kind in OUTSIDE:
@@ -79,19 +76,14 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
         yield "real", _real_arm
     for number in range(16):
         yield "bad_shots", _bad_shots("outliers" if number < 8 else "heavy_tails", 1 + number % 3)
-    for name in names:
-        if KINDS[name].driver != PAYLOAD:  # it never stands alone
+    for kind in LIBRARY:
+        if kind.driver != PAYLOAD:  # it never stands alone
             for size in FAINT:
-                yield "faint", _faint(name, size)
+                yield "faint", _faint(kind.name, size)
     for number in range(48):
         yield "rough", _rough(number % 4)
     for number in range(12):
         yield "rough_misleading", _rough(number % 2, ("in_order", "warming_in_step", "few")[number % 3])
-    for name in CAME_LATER:
-        for strength in STRENGTHS:
-            yield "single", _single(name, strength)
-        for size in FAINT:
-            yield "faint", _faint(name, size)
 
 
 def _small() -> Iterator[tuple[Category, Recipe]]:

@@ -23,7 +23,6 @@ gravity (virtual work), T the temperature, t the time. Lengths hold at 20 C.
 | thermal_expansion | link j | coefficient 1/K | a and d of row j grow by coefficient (T - 20) |
 | parallelogram_geometry | parallelogram | rod mm, rocker mm | bars longer, loop closed by Newton's method |
 | instrument_scale | instrument | scale m/m | measured = (1 + scale) true |
-| instrument_distortion | instrument | amplitude mm, azimuth rad, distance m, edge m | a lens, see below |
 | payload_error | payload | mass kg; variant centre: com_x com_y com_z mm | added to what is stated |
 
 axis_wobble tilts axis j, before it turns, by amplitude cos(per_turn theta - phase) about the fixed direction
@@ -31,8 +30,6 @@ axis_wobble tilts axis j, before it turns, by amplitude cos(per_turn theta - pha
 link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything that hangs on D-H
 frame j (its own mass included), turns there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F,
 the parts along e left out; bent by segments, so to 0.4 %.
-instrument_distortion: a camera at that distance and azimuth looks at the base and shows points farther from the middle
-of its view, by amplitude at the edge, growing with the cube of the angle.
 Cyclic effects also list `linear`: cosine and sine parts, as in amplitude cos(per_turn q - phase) =
 cosine cos(per_turn q) + sine sin(per_turn q); axis_wobble has them about x and about y.
 """

@@ -5,8 +5,6 @@ Conventions: `armscope.world.effects`.
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +15,6 @@ from armscope.world.kinds import (
     CONSTANT,
     LOAD,
     PAYLOAD,
-    PLACE,
     TIME,
     Kind,
     Parameter,
@@ -30,7 +27,6 @@ from armscope.world.layout import BASE_FREEDOMS
 from armscope.world.statics import Hidden
 
 HOUR_S = 3600.0
-LENS = {"azimuth": "rad", "distance": "m", "edge": "m"}
 
 
 def twist_parameters(per: str = "", si: float = 1.0) -> tuple[Parameter, ...]:
@@ -80,37 +76,6 @@ def _hide_scale(hidden: Hidden, scene: Scene, location: str, values: Values) -> 
     hidden.scale += values["scale"]
 
 
-def _draw_lens(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
-    """A camera two to three reaches away, somewhat above, whose lens shows the edge of its picture farther out."""
-    reach = float(np.abs(scene.geometry.rows[:, [0, 2]]).sum())
-    return {
-        "amplitude": float(rng.choice([-1, 1]) * 2e-4),
-        "azimuth": float(rng.uniform(-np.pi, np.pi)),
-        "distance": float(rng.uniform(2, 3) * reach),
-        "edge": reach,
-    }
-
-
-def _hide_lens(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
-    camera = values["distance"] * np.array([np.cos(values["azimuth"]), np.sin(values["azimuth"]), 0.3])
-    view = -camera / np.linalg.norm(camera)
-
-    def bend(points: Array) -> Array:
-        beside = (points - camera) @ (np.eye(3) - np.outer(view, view))
-        slope = beside / ((points - camera) @ view)[:, None] * values["distance"] / values["edge"]
-        return np.asarray(values["amplitude"] * slope * np.sum(slope**2, axis=1, keepdims=True))
-
-    hidden.bends.append(bend)
-
-
-def bent_space(points: Array) -> Iterator[Array]:
-    """Displacements (N, 3) along each axis by powers of the place, up to the third together: nearly any lens's."""
-    place = points - points.mean(axis=0)
-    for powers in itertools.product(range(4), repeat=3):
-        if sum(powers) <= 3:
-            yield from np.prod(place**powers, axis=1)[None, :, None] * np.eye(3)[:, None, :]
-
-
 def _hide_payload_mass(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     hidden.payload_mass += values["mass"]
 
@@ -140,11 +105,6 @@ INSTRUMENT_AND_PAYLOAD: tuple[Kind, ...] = (
     Kind(
         "instrument_scale", "", CONSTANT, (Parameter("scale", "m/m"),), (), only("instrument"),
         lambda rng, scene, place: {"scale": float(rng.choice([-1, 1]) * 1e-4)}, _hide_scale,
-    ),
-    Kind(
-        "instrument_distortion", "", PLACE,
-        (Parameter("amplitude", "mm", 1e-3), *(Parameter(n, u, scales=False) for n, u in LENS.items())), (),
-        only("instrument"), _draw_lens, _hide_lens, "a camera's lens that bends the edge of its picture",
     ),
     Kind(
         "payload_error", "", PAYLOAD, (Parameter("mass", "kg"),), ("payload_kg",), only("payload"),

@@ -19,7 +19,6 @@ LEAST_TORQUE = 0.02
 
 ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"
 TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", "speed", "constant"
-PLACE = "place"
 
 
 @dataclass(frozen=True, eq=False)

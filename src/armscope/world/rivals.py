@@ -16,7 +16,6 @@ from scipy.linalg import orth
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.world.effects_around import bent_space
 from armscope.world.effects_of_links import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, Layout, all_freedoms, segment_hinges
@@ -81,7 +80,6 @@ def rivals(scene: Scene) -> list[Rival]:
     patterns = Patterns(scene)
     found = [*_base_rivals(patterns), *_joint_rivals(patterns), *_link_rivals(patterns)]
     found.append(_rival("instrument_scale", "instrument", patterns.tool))
-    found.append(_rival("instrument_distortion", "instrument", *bent_space(patterns.tool)))
     return found
 
 

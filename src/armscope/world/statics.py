@@ -67,7 +67,6 @@ class Hidden:
         payload_mass: added to the stated payload, kg.
         payload_share: added to the stated payload, as a share of it.
         scale: the instrument's length is (1 + scale) times the true one.
-        bends: what the instrument adds to points (N, 3) besides, m, by where they are.
     """
 
     layout: Layout
@@ -78,7 +77,6 @@ class Hidden:
     payload_mass: float = 0.0
     payload_share: float = 0.0
     scale: float = 0.0
-    bends: list[Callable[[Array], Array]] = field(default_factory=list)
 
     @classmethod
     def nothing(cls, geometry: Geometry, session: Session) -> Hidden:
@@ -124,7 +122,7 @@ class Balance:
     """The arm in equilibrium at every row.
 
     Attributes:
-        tool: (N, 3) tool point in the base frame, m, as the instrument reads it.
+        tool: (N, 3) tool point in the base frame, m, by the instrument's scale.
         motor_torque: (N, m) gravity's torque on each motor there, N m.
         residual: largest force left over on a spring, as a share of the largest load on any spring.
         tool_turn: (N, 3, 3) orientation of the tool in the base frame.
@@ -165,8 +163,7 @@ def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:
         else:
             mechanism.set_joints(start[row])
         tool[row], turn[row] = mechanism.tool(), mechanism.tool_turn()
-    read = tool * (1 + hidden.scale) + sum(bend(tool) for bend in hidden.bends)
-    return Balance(read, torque, residual / largest if largest > 0 else 0.0, turn)
+    return Balance(tool * (1 + hidden.scale), torque, residual / largest if largest > 0 else 0.0, turn)
 
 
 def _prescribed(mechanism: Mechanism, session: Session, hidden: Hidden) -> Array:
