@@ -116,3 +116,10 @@ def test_a_format_is_told_whatever_the_content_is() -> None:
     assert format_of({"format": "armscope model 1"}) == "armscope model 1"
     assert format_of({}) == "no key format"
     assert format_of([1]) == "no mapping"
+
+
+def test_a_mapping_of_more_keys_than_anything_has_is_refused_where_they_become_too_many(tmp_path):
+    path = tmp_path / "many.yaml"
+    path.write_text("".join(f"k{number}: 1\n" for number in range(30_000)), encoding="utf-8")
+    with pytest.raises(InputError, match=r"line 20001.*20000 keys of one mapping"):
+        read_yaml(path)

@@ -17,6 +17,8 @@ DEEPEST = 60
 """Levels of nesting; no file of armscope has more than ten."""
 MOST_VALUES = 600_000
 """Values after aliases are written out."""
+MOST_KEYS = 20_000
+"""Of one mapping; what a file of armscope names, runs of a model above all, are hundreds."""
 LARGEST_WHOLE = 2**63
 LONGEST_NUMBER = 100
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -132,6 +134,8 @@ class _Reading:
                 raise NotPlain(f"the key {str(value)[:60]}", mark)
             if value is not _MERGE and value in into.value:
                 raise NotPlain(f"the key {value!r} twice", mark)
+            if len(into.value) >= MOST_KEYS:
+                raise NotPlain(f"more than {MOST_KEYS} keys of one mapping", mark)
             into.key, into.has_key = value, True
 
     @staticmethod

@@ -14,6 +14,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS
 from armscope.recordings.opening import UTF_16, open_text, refuse_other_than_text, start_of
+from armscope.recordings.textfile import MOST_COLUMNS
 
 LOOKED_AT = 2000
 """Lines of the file that guesses rest on."""
@@ -75,6 +76,8 @@ def first_table(path: Path) -> ForeignTable:
         raise InputError(path, "", f"{len(filled)} lines", "a table has a header or a row, and rows")
     delimiter, cut = _delimiter(filled)
     width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
+    if width > MOST_COLUMNS:
+        raise InputError(path, "", f"{width} columns", f"a table has at most {MOST_COLUMNS} columns")
     first = next(number for number, line in enumerate(lines) if line.strip() and len(_split(line, cut)) == width)
     rows = [cells for line in lines[first:] if len(cells := _split(line, cut)) == width]
     decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
