@@ -79,6 +79,7 @@ class _Reading:
     def __init__(self) -> None:
         self.documents: list[Any] = []
         self._open: list[_Open] = []
+        self._known: dict[tuple[str | None, tuple[bool, bool], str], Any] = {}
         self._anchors: dict[str, tuple[Any, int]] = {}
         self._resolver: Any = yaml.resolver.Resolver()
         self._constructor = yaml.constructor.SafeConstructor()
@@ -149,13 +150,22 @@ class _Reading:
         into.merged += several
 
     def _scalar(self, event: Any) -> Any:
+        """The value of a text; one that stood before is not read again: tables in YAML repeat most of theirs."""
+        text = event.tag, event.implicit, event.value
+        if text not in self._known:
+            self._known[text] = self._read_scalar(event)
+        if self._known[text] is not _MERGE:
+            return self._known[text]
+        return _MERGE if self._open and isinstance(self._open[-1].value, dict) else event.value
+
+    def _read_scalar(self, event: Any) -> Any:
         _check_tag(event)
         if found := CONTROL.search(event.value):
             raise NotPlain(f"the control character {found.group()!r}", event.start_mark)
         tag = event.tag
         if tag is None or tag == "!":
             tag = self._resolver.resolve(yaml.ScalarNode, event.value, event.implicit)
-        if tag == f"{_TAG}merge" and self._open and isinstance(self._open[-1].value, dict):
+        if tag == f"{_TAG}merge":
             return _MERGE
         construct = self._constructor.yaml_constructors.get(tag) if tag in _PLAIN else None
         if construct is None or tag == f"{_TAG}str":  # dates stay as they are written
