@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -73,8 +74,13 @@ def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(see
     assert abs(turn.value - 2e-4) < 0.15 * 2e-4  # its knee is as it comes
     assert "under small loads" in verdict.headline
     assert "soft_turn x tanh(10 x load" in largest.cure
-    told = [task.instruction for task in work_order(verdict, contributions(verdict)).tasks if task.place == "joint 4"]
-    assert sum("rad × tanh(10 × load / largest load in these recordings))" in instruction for instruction in told) == 1
+    tasks = [task for task in work_order(verdict, contributions(verdict)).tasks if task.place == "joint 4"]
+    (load,) = re.findall(r"tanh\(10 x load / (\S+) N m\)", largest.cure)
+    assert sum(f"rad × tanh(10 × load / {load} N m))" in task.instruction for task in tasks) == 1
+    (rule,) = (task.cure for task in tasks if "soft_turn" in task.cure)
+    assert f"tanh(10 x load / {load} N m)" in rule
+    assert "Here soft_turn = +0.01" in rule, "degrees and mrad of 0.2 mrad"
+    assert "do not determine" not in rule
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])

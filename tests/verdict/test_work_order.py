@@ -9,15 +9,17 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
+from armscope.physics.freeform import UNKNOWN
 from armscope.physics.registry import EFFECTS
-from armscope.physics.scene import Scene
-from armscope.physics.soft_start import HARDENING
+from armscope.physics.scene import Part, Scene
+from armscope.physics.soft_start import hardening
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.effects import Parameter
+from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
@@ -235,7 +237,7 @@ def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
 
 def test_the_card_and_the_work_order_say_the_same_of_every_effect() -> None:
     """Beside its instruction a work order has the end of the card's sentence, never words of its own."""
-    for effect in (*EFFECTS, HARDENING):
+    for effect in (*EFFECTS, hardening(12.345)):
         cure = effect.cure
         assert cure.words.lower().endswith(cure.rule.lower())
         assert cure.words == f"{cure.mend} {cure.otherwise}".strip()
@@ -260,3 +262,22 @@ def test_a_minor_effect_that_pays_once_all_else_is_cured_is_a_task() -> None:
         tasks[size] = work_order(case.verdict, replace(worth, smaller=one, single=(one,), **moved)).tasks
     assert [(task.place, task.only_after) for task in tasks[-0.3]] == [("joint 3", False), ("joint 2", True)]
     assert [task.place for task in tasks[-1e-3]] == ["joint 3"]
+
+
+def test_what_moved_over_the_time_of_a_session_is_fastened_not_corrected_by_a_curve() -> None:
+    """No later session has these times: a command corrected by them would carry one day's accident to every other."""
+    case = verdicts.case(effects=(verdicts.found("unknown", "joint 3", driver="time"),))
+    (cause,) = contributions(case.verdict).causes
+    table = replace(case.recordings, time=np.linspace(0, 7200, len(case.recordings)))
+    curves = {(p.location, p.variant): p for p in UNKNOWN.place(case.arm, table)}
+    for variant, corrects in (("time", False), ("angle", True)):
+        placed = curves["joint 3", variant]
+        part = Part(placed, np.full(len(placed.terms), 1e-4))
+        task = task_of(Scene(case.arm, table), replace(cause, parts=(part,)), cause.effects[0])
+        assert (placed.effect.cure.commanded is not None) == corrects
+        assert ("commanded = wanted - curve" in task.cure) == corrects
+        assert ("correction table" in task.instruction) == corrects
+        assert ("fasten it" in task.instruction) != corrects
+    pair = [verdicts.found("unknown", place, driver="time") for place in ("joint 3", "joint 4")]
+    assert "corrects nothing later" in cure_of_family("unknown", pair, everywhere=False)
+    assert "later" not in cure_of_family("unknown", [replace(e, driver="angle of joint 3") for e in pair], False)

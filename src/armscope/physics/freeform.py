@@ -11,7 +11,7 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import command
+from armscope.physics.cure import Cure, command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import drive, loaded_joints
@@ -173,7 +173,7 @@ def _curve(
     """A free curve; its first ``trends`` terms are a constant or a trend, as large as all the rest together."""
     total = float(np.sqrt(np.sum(np.square(shape))))
     return Placed(
-        UNKNOWN,
+        UNKNOWN_OVER_TIME if variant == "time" else UNKNOWN,
         location,
         terms,
         (*[1.0] * trends, *(s / total for s in shape)),
@@ -225,5 +225,19 @@ UNKNOWN = Effect(
     atlas=_column,
     several=True,
 )
+
+UNKNOWN_OVER_TIME = replace(
+    UNKNOWN,
+    confirm="Repeat one pose through a whole session and watch what is named here: does it creep, or jump?",
+    cure=Cure(
+        "Find what moved: a clamp, coupling or encoder that slipped, or parts that warmed up. Fasten it, set its zero "
+        "anew, and measure again.",
+        otherwise="A curve over the time of these recordings corrects no later motion.",
+        change="what moved",
+        instruction="Find what moved during these recordings (a clamp, coupling or encoder that slipped, or parts that "
+        "warmed up), fasten it, set its zero anew, and measure again.",
+    ),
+)
+"""The same where it follows the time: no later session has that time, and no command can be corrected by it."""
 
 EFFECTS = [UNKNOWN]

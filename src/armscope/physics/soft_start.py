@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.effect import Driver, Placed, motor, term
+from armscope.physics.effect import Driver, Effect, Placed, motor, term
 from armscope.physics.elastic import JOINT_COMPLIANCE, loaded_joints
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import is_pulled_both_ways
@@ -23,17 +23,25 @@ from armscope.robot import Arm
 SOFT_START = "soft start"
 """The variant of a joint's compliance that is complete under small loads; a name only where it stands out of all."""
 
-TURNED = f"tanh({1 / PLAUSIBLE.knee_share:g} x load / largest load in these recordings)"
-"""The share of its soft turn by which a drive is turned; that it hardens at a share of the largest load is assumed."""
-HARDENING = replace(
-    JOINT_COMPLIANCE,
-    cure=replace(
-        JOINT_COMPLIANCE.cure,
-        otherwise=f"or compensate for it in the command: commanded = wanted - soft_turn x {TURNED} (load: gravity's "
-        "torque on this motor, positive along its pull; where it hardens is assumed).",
-    ),
-)
-"""The same effect, with a rule of its own by which it is commanded away."""
+
+def hardening(largest_nm: float) -> Effect:
+    """The same effect, with a rule of its own by which it is commanded away.
+
+    Args:
+        largest_nm: the joint's largest load in the recordings, N m; that it hardens at a share of it is assumed.
+
+    Returns:
+        The effect, whose words print that load: without it nobody could compute the rule.
+    """
+    turned = f"tanh({1 / PLAUSIBLE.knee_share:g} x load / {largest_nm:.4g} N m)"
+    cure = JOINT_COMPLIANCE.cure
+    rule = (
+        f"or compensate for it in the command: commanded = wanted - soft_turn x {turned} (load: gravity's torque on "
+        f"this motor, positive along its pull; {largest_nm:.4g} N m: the largest in these recordings; where it hardens "
+        "is assumed)."
+    )
+    instruction = cure.instruction.replace("{size}", f" (minus {{soft_turn}} × {turned.replace(' x ', ' × ')})")
+    return replace(JOINT_COMPLIANCE, cure=replace(cure, otherwise=rule, instruction=instruction))
 
 
 def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -52,7 +60,8 @@ def soft_starts(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     size = PLAUSIBLE.soft_share * PLAUSIBLE.drive_rad
     for j in loaded_joints(scene):
         if is_pulled_both_ways(scene, j):
-            knee = PLAUSIBLE.knee_share * float(np.abs(scene.torques[:, j - 1]).max())
-            turn = term("soft_turn", "rad", (motor(j), Driver("soft start", (j, knee))), plausible=size)
+            largest = float(np.abs(scene.torques[:, j - 1]).max())
+            load = Driver("soft start", (j, PLAUSIBLE.knee_share * largest))
+            turn = term("soft_turn", "rad", (motor(j), load), plausible=size)
             driver = f"load of joint {j}, while it is small"
-            yield Placed(HARDENING, f"joint {j}", (turn,), (1.0,), driver, variant=SOFT_START)
+            yield Placed(hardening(largest), f"joint {j}", (turn,), (1.0,), driver, variant=SOFT_START)

@@ -21,6 +21,8 @@ _CURES = {
 }
 """What mends a family where it has several members or small errors everywhere."""
 
+OVER_TIME = "What follows the time moved meanwhile: fasten it and measure again; its curve corrects nothing later."
+
 
 def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
     """What to do about a cause: its only effect's cure, or what mends the whole family.
@@ -35,4 +37,5 @@ def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool
     """
     if len(members) == 1 and not everywhere:
         return members[0].cure
-    return _CURES.get(family, members[0].cure if members else "")
+    mend = _CURES.get(family, members[0].cure if members else "")
+    return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

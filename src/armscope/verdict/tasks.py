@@ -11,10 +11,10 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.effect import Effect
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Part, Scene
-from armscope.physics.soft_start import TURNED
 from armscope.robot import Arm
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
@@ -69,8 +69,9 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         The task.
     """
     # what scatters has no curve to correct by
-    known = None if any(p.name == "scatter" for p in effect.parameters) else effect_named(effect.effect)
-    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "jump": _jump(effect)}
+    known = None if any(p.name == "scatter" for p in effect.parameters) else _definition(cause, effect)
+    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "soft_turn": "–"}
+    words["jump"] = _jump(effect)
     words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
     if in_urdf:
@@ -83,8 +84,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         size = read_parameter(told["compliance"], effect.effect)
         words["size"] = f" (minus {size.value} × load)"
     if "soft_turn" in told:
-        size = read_parameter(told["soft_turn"], effect.effect)
-        words["size"] = f" (minus {size.value} × {TURNED.replace(' x ', ' × ')})"
+        words["soft_turn"] = read_parameter(told["soft_turn"], effect.effect).value
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
@@ -98,6 +98,13 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
         confirm=effect.confirm,
     )
+
+
+def _definition(cause: Repair, effect: FoundEffect) -> Effect | None:
+    """What defines an effect: as it was placed, since a variant may have a cure of its own."""
+    key = (effect.effect, effect.location)
+    placed = (part.placed for part in cause.parts if (part.placed.name, part.placed.location) == key)
+    return next((each.effect for each in placed), effect_named(effect.effect))
 
 
 def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
