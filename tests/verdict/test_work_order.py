@@ -281,3 +281,18 @@ def test_what_moved_over_the_time_of_a_session_is_fastened_not_corrected_by_a_cu
     pair = [verdicts.found("unknown", place, driver="time") for place in ("joint 3", "joint 4")]
     assert "corrects nothing later" in cure_of_family("unknown", pair, everywhere=False)
     assert "later" not in cure_of_family("unknown", [replace(e, driver="angle of joint 3") for e in pair], False)
+
+
+def test_commands_by_the_whole_model_stand_in_place_of_the_other_steps() -> None:
+    """A zero that is set anew and then commanded away, too, is off by as much again: seen where orders were obeyed."""
+    case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 3", Parameter("offset", "rad", 1e-3, 1e-5)),))
+    worth = contributions(case.verdict)
+    moved, rest = np.random.default_rng(0).normal(0, 1, (2, *worth.left.shape))
+    worth = replace(worth, causes=(replace(worth.causes[0], moved=3 * moved),), small={}, left=0.02 * rest)
+    one = work_order(case.verdict, worth)
+    assert [task.instead for task in one.tasks] == [False]
+    assert not one.caution, "nothing stands beside it"
+    both = work_order(case.verdict, replace(worth, smaller=replace(worth.causes[0], moved=rest)))
+    assert [task.instead for task in both.tasks] == [False, True]
+    assert both.tasks[1].instruction.startswith("In place of the steps above, compensate")
+    assert "never on top" in both.caution

@@ -42,6 +42,7 @@ class Task:
         confirm: how to confirm it first.
         alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
         only_after: it pays only once all before it is done: alone it would make the error larger.
+        instead: it stands in place of all before it, and holds them.
     """
 
     what: str
@@ -54,6 +55,7 @@ class Task:
     alone_mm: float = math.nan
     then_mm: float = math.nan
     only_after: bool = False
+    instead: bool = False
 
 
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:

@@ -31,6 +31,12 @@ WORTH_TOGETHER = 0.1
 """Share of the error from which all that is left in the fitted model is commanded away together."""
 WORTH_OF_MINOR = 0.25
 """The same from which a minor effect is a task of its own in its turn: judgement, with two real arms in view."""
+COMPENSATE = "armscope compensate"
+NOT_ON_TOP = (
+    "Commands from armscope compensate take out all that was found, other steps included: use them in place of those, "
+    "never on top. Once anything is changed at the arm or in its controller, measure and diagnose again first."
+)
+"""The model file holds the arm as it was recorded: a zero set anew and commanded away is off by as much again."""
 NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
 MOST_ROWS = 20_000
 """In which a repair's motion is looked for: all frames of a million rows would take four gigabytes."""
@@ -48,6 +54,12 @@ class WorkOrder:
 
     tasks: tuple[Task, ...]
     besides: tuple[str, ...]
+
+    @property
+    def caution(self) -> str:
+        """What must not be done together; "" where there is one step, or none that corrects commands by the model."""
+        by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
+        return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
 
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
@@ -76,25 +88,28 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     ]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
-        done.append(_together([what[:1].lower() + what[1:] for what in moving], rms(worth.left)))
+        names = [what[:1].lower() + what[1:] for what in moving]
+        done.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
     return WorkOrder(tuple(done), (*lost, *(f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)))
 
 
-def _together(names: Sequence[str], left_mm: float) -> Task:
+def _together(names: Sequence[str], left_mm: float, instead: bool) -> Task:
     """What pays only with all the rest: causes that work against each other, and those too small for a repair."""
+    compensate = f"ompensate for the whole fitted model in the commands ({COMPENSATE})."
     of_it = f" Cured one by one, these do not pay: {'; '.join(names)}." if names else ""
     return Task(
-        what="What is left: causes that work against each other, or are small",
+        what="All of it, with what is left: causes that work against each other, or are small",
         place="whole arm",
         change="corrected commands",
         motion="",
-        instruction=f"Compensate for the whole fitted model in the commands (armscope compensate).{of_it}",
+        instruction=f"{'In place of the steps above, c' if instead else 'C'}{compensate}{of_it}",
         cure="",
         confirm="Measure a few poses under corrected commands.",
         alone_mm=left_mm,
         then_mm=left_mm,
+        instead=instead,
     )
 
 
