@@ -23,6 +23,7 @@ from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import plain
 
 LEVEL = 0.05
@@ -138,8 +139,8 @@ def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDAr
     surest = max(parameters, key=lambda each: abs(each.difference) / (each.interval_95[1] - each.interval_95[0]))
     values, errors = np.array(surest.values), np.array(surest.stderrs)
     before, after = np.mean(values[outside]), np.mean(values[inside])
-    was = abs(before) > 1.96 * np.sqrt(np.mean(errors[outside] ** 2))
-    is_now = abs(after) > 1.96 * np.sqrt(np.mean(errors[inside] ** 2))
+    was = abs(before) > INTERVAL * np.sqrt(np.mean(errors[outside] ** 2))
+    is_now = abs(after) > INTERVAL * np.sqrt(np.mean(errors[inside] ** 2))
     if was != is_now:
         return "came" if is_now else "went"
     if not was or before * after < 0:  # how large it is in all of them may be open where its change is not

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from armscope.core.numerals import rounded, shown_unit, size_of
+from armscope.verdict.effects import INTERVAL
 
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
 
@@ -128,7 +129,7 @@ def _number_line(number: Valued) -> str:
     factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
     low, high = (_signed(factor * end) for end in number.interval_95)
     change = f"change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
-    if max(map(abs, number.values)) < 1.96 * min(number.stderrs):
+    if max(map(abs, number.values)) < INTERVAL * min(number.stderrs):
         return f"{number.name}: {change}; how large it is in all of them, these poses leave open"
     values = " -> ".join(_signed(factor * value) for value in number.values)
     return f"{number.name}: {values} {unit}; {change}"

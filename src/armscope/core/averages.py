@@ -1,10 +1,18 @@
-"""Averages by squares."""
+"""Averages by squares, and the scale that bad values do not move."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from armscope.core.types import Array
+
+NORMAL_SCALE = 1.4826
+"""Standard deviation of normal numbers per median of their distances from the middle: 1 / its 75 % quantile."""
+
+
+def robust_scale(distances: Array) -> float:
+    """Standard deviation of normal numbers that lie so far (N,) from their middle; half of them may be bad."""
+    return NORMAL_SCALE * float(np.median(np.abs(distances)))
 
 
 def rms(values: Array) -> float:

@@ -35,6 +35,7 @@ from armscope.recordings import Recordings
 from armscope.recordings.some_rows import some_rows
 from armscope.robot import Arm
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
 
 
@@ -158,7 +159,7 @@ def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: 
     angle, stderr = np.degrees(found.angle), np.degrees(found.stderr)
     down = ", ".join(f"{g:.3g}" for g in found.arm.gravity)
     text = (
-        f"Gravity leans {angle:.1f} +- {1.96 * stderr:.1f} degrees from where it is stated "
+        f"Gravity leans {angle:.1f} +- {INTERVAL * stderr:.1f} degrees from where it is stated "
         f"({found.evidence:.0f} nats): "
         f"gravity_m_s2: [{down}] in the base frame was used."
     )

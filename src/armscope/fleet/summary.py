@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from armscope.core.averages import robust_scale
 from armscope.fleet.diagnosing import FAILURE
 from armscope.fleet.members import Member
 from armscope.verdict.filenames import VERDICT
@@ -75,7 +76,7 @@ def _apart(values: pd.Series[float]) -> pd.Series[float]:
         return values * np.nan
     logs = np.log(np.maximum(values.to_numpy(dtype=float), 1e-6))
     away = logs - np.median(logs)
-    return pd.Series(away / max(1.4826 * float(np.median(np.abs(away))), 0.05), index=values.index)
+    return pd.Series(away / max(robust_scale(away), 0.05), index=values.index)
 
 
 def outliers(table: pd.DataFrame) -> pd.DataFrame:

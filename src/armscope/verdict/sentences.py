@@ -49,7 +49,8 @@ _BESIDE = {"transmission": "all drives a little", "drift": "a slow drift"}
 """Small errors of a family beside one that stands out; of others: `_OTHERS`."""
 _OTHERS = "all others a little"
 TOLD = 0.05
-"""Share of the squared error from which a cause is told; smaller ones are counted, unless a member stands out."""
+"""Share of the squared error from which a cause is told first; smaller ones come after, and are counted where none of
+their members stands out."""
 SPREAD_TOLD = 0.15
 """The same for a cause of which no member stands out: below it, it is one of the rest."""
 UNSURE = 0.01
@@ -61,7 +62,7 @@ FAINT = 0.7
 
 
 def headline(verdict: Diagnosis) -> str:
-    """The answer: at most `MOST_TOLD` causes with what each has of the squared error, and one sentence on the rest."""
+    """The answer: one sentence on the causes that count, each with its share of the squared error; one on the rest."""
     main, minor = main_and_minor(verdict.effects)
     if verdict.answer == "cannot tell" and not main:
         return _cannot_tell(verdict)
@@ -78,10 +79,10 @@ def headline(verdict: Diagnosis) -> str:
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
-    of_what = [" of the squared error", *("" for _ in told)]
-    causes = "; ".join(f"{c.text} – {percent(c.share)}{of}" for c, of in zip(told, of_what, strict=False))
-    rest_told = [*_smaller(rest), *_unsure(verdict), _remainder(verdict)]
-    return f"{capitalised(causes)}. {capitalised('; '.join(rest_told))}."
+    clauses = [f"{c.text} – {percent(c.share)}{' of the squared error' * (c is told[0])}" for c in told]
+    first = max(1, sum(c.share > TOLD for c in told))
+    rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
+    return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:

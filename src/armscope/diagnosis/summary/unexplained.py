@@ -17,7 +17,7 @@ from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import FAMILIES, MENDED
 from armscope.physics.loads import STATED_MASSES
-from armscope.verdict.effects import FoundEffect
+from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Background, Notice, Unexplained
 
 
@@ -84,9 +84,9 @@ def masses_in_error(
     rms = projected_rms(equations, fit.layout.frames, coefficients)
     found = Background(family.name, True, family.label(family.sizes - 1), rms, share)
     known = [
-        f"{part.placed.location} {100 * value:+.0f} +- {196 * error:.0f} %"
+        f"{part.placed.location} {100 * value:+.0f} +- {100 * INTERVAL * error:.0f} %"
         for part, value, error in zip(parts, off, stderr, strict=True)
-        if error < TELLING.undetermined * part.placed.prior_scale[0] and abs(value) > 1.96 * error
+        if error < TELLING.undetermined * part.placed.prior_scale[0] and abs(value) > INTERVAL * error
     ]
     text = "Stated masses are off, as all that gives way shows"
     return [found], [Notice("stated masses", f"{text}: {', '.join(known)}." if known else f"{text}; which, is open.")]

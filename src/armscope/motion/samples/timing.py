@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.core.averages import robust_scale
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import TIMING
@@ -133,7 +134,7 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
     stamped = np.diff(motions.time[rows])
     power = np.sum(speed**2, axis=1)
     step = np.sum(travelled * speed, axis=1) / np.maximum(power, 1e-12)
-    rounding = 1.4826 * np.median(np.abs(travelled - speed * step[:, None]))
+    rounding = robust_scale(travelled - speed * step[:, None])
     moving = np.sqrt(power) * period * TIMING.told_apart > rounding
     steps = np.clip(np.round(step / period), 1, np.maximum(np.round(stamped / period) + TIMING.gap, 1))
     whole = np.where(moving, steps * period, stamped)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from armscope.comparison import Comparison
 from armscope.core.numerals import shown_unit
+from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8
 COLUMNS = [
@@ -38,7 +39,7 @@ def history_figure(found: Comparison) -> Figure:
     at = np.arange(len(found.names))
     for (each, number), axes in zip(numbers, panels[:, 0], strict=True):
         factor, unit = shown_unit(number.unit, float(np.max(np.abs(number.since_first))))
-        values, errors = factor * np.array(number.since_first), factor * 1.96 * np.array(number.since_first_stderrs)
+        values, errors = factor * np.array(number.since_first), factor * INTERVAL * np.array(number.since_first_stderrs)
         differs = np.isin(found.names, each.where)
         axes.errorbar(at, values, errors, fmt="none", ecolor="0.5", capsize=3)
         axes.plot(at, values, color="0.8", zorder=0)
