@@ -278,7 +278,7 @@ def _carefully(state: DiagnosisState) -> list[Notice]:
         )
         notices.append(Notice("noise by distance", text))
     stated, fitted = state.noise.stated_mm, state.fit.noise
-    if stated and fitted < 0.75 * stated:
+    if stated and fitted < TELLING.noise_shortfall * stated:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"
         notices.append(Notice("stated noise", text))
     return notices

@@ -22,6 +22,12 @@ class TellingRules(Constants):
         "of an effect's size by which parts of the rows may differ and still give the same",
         "judgement: seen with bench cases in view; who cures an effect by it takes 95 % away",
     )
+    noise_shortfall: float = constant(
+        0.75, "of the stated noise, below which a residual makes it doubtful", "judgement: statements are rounded"
+    )
+    run_apart: float = constant(
+        0.5, "share of a run's rows that fit nothing beyond which it is told by name", "convention: most of them"
+    )
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
     )

@@ -120,7 +120,7 @@ def rows_apart(state: DiagnosisState) -> Unexplained:
         return Unexplained(False)
     size = float(np.sqrt(np.mean(state.fit.residuals[apart] ** 2)))
     runs = np.unique(state.recordings.run[apart])
-    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > WEIGHTS.inlier_weight]
+    whole = [str(run) for run in runs if run and np.mean(apart[state.recordings.run == run]) > TELLING.run_apart]
     words = f"{np.count_nonzero(apart)} of {len(apart)} rows fit neither the nominal arm nor any effect"
     return Unexplained(True, None, None, size, words + (f": most of run {', '.join(whole)}" if whole else ""))
 
