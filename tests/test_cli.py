@@ -128,7 +128,7 @@ def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
 
 def test_a_robot_may_be_named(tmp_path):
     for name, code, words in (("puma560", 0, "the library's"), ("puma561", 2, "a name (armscope init --list)")):
-        line = ["poses", "-r", name, "-n", "12", "-o", "poses.csv"]
+        line = ["poses", "-r", name, "-n", "12", "--candidates", "60", "-o", "poses.csv"]
         done = subprocess.run(
             [sys.executable, "-c", "from armscope.cli import main; main()", *line],
             capture_output=True, text=True, cwd=tmp_path, check=False,
@@ -161,12 +161,12 @@ def mistaken(request, tmp_path):
 
 def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_for(mistaken, tmp_path):
     file, word = mistaken
-    error = error_of("calibrate BAD -r ROBOT -o OUT", BAD=file, OUT=tmp_path / "out")
+    error = error_of("calibrate BAD -r ROBOT -o OUT --splits 0", BAD=file, OUT=tmp_path / "out")
     assert isinstance(error, InputError)
     assert word in str(error)
     assert "--anyway" in str(error)
     assert not (tmp_path / "out" / "robot.yaml").exists()
-    assert error_of("calibrate BAD -r ROBOT -o OUT --anyway", BAD=file, OUT=tmp_path / "out") is None
+    assert error_of("calibrate BAD -r ROBOT -o OUT --splits 2 --anyway", BAD=file, OUT=tmp_path / "out") is None
     assert (tmp_path / "out" / "robot.yaml").exists()
 
 
