@@ -92,6 +92,14 @@ def test_a_file_that_is_none_is_named(line, kind, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("target", ["nowhere.csv", "link.csv"])
+def test_a_link_that_leads_nowhere_is_no_spelling_mistake(target, tmp_path):
+    (tmp_path / "link.csv").symlink_to(tmp_path / target)
+    error = error_of("check BAD", BAD=tmp_path / "link.csv")
+    assert isinstance(error, InputError)
+    assert f"a link to {tmp_path / target}, where no file is" in str(error)
+
+
 @pytest.mark.parametrize("line", FOLDER_READERS)
 def test_a_folder_that_is_none_is_named(line, tmp_path):
     error = error_of(line, BAD=tmp_path / "nowhere", OUT=tmp_path / "out")

@@ -76,6 +76,23 @@ def complaint(file, **options):
         pytest.param(table(ROWS[0], "", ROWS[1]), ["row 3", "nothing", "blank line"], id="blank line"),
         pytest.param(changed(1, "x_mm", '"101'), ["quotation mark"], id="a quotation mark that is never closed"),
         pytest.param(table('"' + ROWS[0], *ROWS * 20_000), ["line", "quotation mark"], id="never closed, long file"),
+        *(
+            pytest.param(changed(1, "x_mm", word), ["row 3", "x_mm", "must be a number", cure], id=f"x_mm is {word}")
+            for word, cure in (
+                ("1'234.5", "between thousands"),
+                ("1 234.5", "between thousands"),
+                ("1_234", "between thousands"),
+                ('"1,234.5"', "between thousands"),
+                ("812 mm", "Write the number alone"),
+                ("12°", "Write the number alone"),
+                ("\N{MINUS SIGN}12.5", "as a hyphen"),
+                ("[mm]", "holds units, remove it"),
+                ("#REF!", "Correct it, or remove the row"),
+                ("0x1F", "Correct it, or remove the row"),
+            )
+        ),
+        pytest.param("sep=,\n" + table(*ROWS), ["line 1", "sep=,", "Remove this line"], id="a spreadsheet's own line"),
+        pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
         pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
         pytest.param(changed(1, "x_mm", "1.5e7"), ["row 3", "x_mm", "10 km"], id="beyond any instrument"),
     ],

@@ -143,6 +143,8 @@ def _refuse_absent(paths: list[Path], hint: Any) -> None:
         beside = [each.name for each in path.parent.glob(f"*{path.suffix}")]
         alike = nearest(path.name, beside)
         cure = alike if alike.startswith("Did") else "No such file or directory."
+        if path.is_symlink():
+            cure = f"It is a link to {os.readlink(path)}, where no file is."
         raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
 
 

@@ -212,7 +212,7 @@ class Names:
                 return columns
             if present:
                 missing = next(name for name in columns if name not in present)
-                cure = nearest(missing, self.columns)
+                cure = nearest(missing, [name for name in self.columns if name not in present])
                 raise self._error(f"no column {missing}", "x, y and z come together, in one unit", cure)
         if measured:
             moving = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."

@@ -202,6 +202,9 @@ def _check_header(path: Path, header: list[str]) -> None:
         )
     if len(header) > MOST_COLUMNS:
         raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")
+    if header[0].startswith("sep="):
+        rule = "the first line names the columns"
+        raise InputError(path, "line 1", ",".join(header), rule, "Remove this line, which only spreadsheets read.")
     seen: set[str] = set()
     for name in header:
         if CONTROL.search(name):
