@@ -92,6 +92,13 @@ def test_a_file_that_is_none_is_named(line, kind, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_table_is_not_called_a_workbook(tmp_path):
+    error = error_of("poses -r ROBOT -o OUT", OUT=tmp_path / "poses.xlsx")
+    assert isinstance(error, InputError)
+    assert "Call it poses.csv" in str(error)
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize("target", ["nowhere.csv", "link.csv"])
 def test_a_link_that_leads_nowhere_is_no_spelling_mistake(target, tmp_path):
     (tmp_path / "link.csv").symlink_to(tmp_path / target)

@@ -29,3 +29,10 @@ def test_rows_that_base_and_tool_use_up_say_nothing_of_a_change(word):
     scattered = replace(first, **{word: np.array([f"{row}" for row in range(20)])})
     with pytest.raises(InputError, match="20 rows, which hold 60 numbers"):
         stacked(ARM, {"a": scattered, "b": second})
+
+
+def test_a_recording_is_not_compared_with_its_own_rows():
+    first, second = session(1, rows=30), session(2, rows=30)
+    for copy in (first, first.rows(np.arange(30) < 12)):
+        with pytest.raises(InputError, match=r"points of a in c, to the last digit.*named twice"):
+            stacked(ARM, {"a": first, "b": second, "c": copy})

@@ -91,6 +91,7 @@ def complaint(file, **options):
                 ("0x1F", "Correct it, or remove the row"),
             )
         ),
+        pytest.param("name: arm\na: [1, 2, 3]\n", ["row 2", "3 values", "the right file"], id="no table at all"),
         pytest.param("sep=,\n" + table(*ROWS), ["line 1", "sep=,", "Remove this line"], id="a spreadsheet's own line"),
         pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
         pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),

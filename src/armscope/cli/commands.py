@@ -24,6 +24,7 @@ from armscope.core.streams import is_stream
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
+WORKBOOKS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]
 NominalArm = Annotated[
@@ -95,6 +96,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
             absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
             _refuse_absent([path for path in absent if not (name == "robot" and _in_library(path))], hints[name])
         writes = _paths(value for name, value in values.items() if name in outputs)
+        _refuse_workbooks(writes)
         delivery = Delivery(command, reads, writes, force)
         with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
             try:
@@ -146,6 +148,18 @@ def _refuse_absent(paths: list[Path], hint: Any) -> None:
         if path.is_symlink():
             cure = f"It is a link to {os.readlink(path)}, where no file is."
         raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
+
+
+def _refuse_workbooks(paths: list[Path]) -> None:
+    """A name that says workbook, with CSV inside, is a file that spreadsheets call damaged.
+
+    Raises:
+        InputError: a file has such a name.
+    """
+    for path in paths:
+        if path.suffix.lower() in WORKBOOKS:
+            cure = f"Call it {path.stem}.csv: spreadsheets open it."
+            raise InputError(path, "", f"a workbook's ending {path.suffix}", "no command writes workbooks", cure)
 
 
 def _is_absent(path: Path) -> bool:

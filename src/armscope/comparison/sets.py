@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,7 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
     tables = [check_table(arm, table).recordings for table in recordings.values()]
     for table in tables:
         _check_rows(table)
+    _refuse_copies(list(recordings), tables)
     named = [
         replace(
             table,
@@ -65,6 +67,20 @@ def _check_rows(table: Recordings) -> None:
         found = f"{len(table)} rows, which hold {numbers} numbers"
         rule = f"base and tool of each run and target take up {frames}: rows must hold more than twice as many"
         raise InputError(table.source, "", found, rule, "Measure more poses in each run, or name the runs alike.")
+
+
+def _refuse_copies(names: Sequence[str], tables: Sequence[Recordings]) -> None:
+    """A recording of the rows of another one tells nothing of a change, and makes the noise look small.
+
+    Raises:
+        InputError: all points of one stand in another one, to the last digit.
+    """
+    points = [{tuple(point) for point in table.positions.tolist()} for table in tables]
+    for (first, ours), (second, theirs) in combinations(zip(names, points, strict=True), 2):
+        if ours <= theirs or theirs <= ours:
+            found = f"the points of {first} in {second}, to the last digit"
+            rule = "what is compared is measured anew each time"
+            raise InputError("compare", "", found, rule, "Was one file copied, or named twice?")
 
 
 def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:

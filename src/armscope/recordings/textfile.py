@@ -184,6 +184,8 @@ def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
 
 
 def _why_ragged(count: int, width: int) -> str:
+    if width == 1:
+        return "A table's first line names several columns. Is this the right file?"
     if count > width:
         return "A decimal comma splits a number in two: use points."
     if count == 0:
