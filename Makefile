@@ -5,6 +5,8 @@ export PATH := $(CURDIR)/$(BIN):$(PATH)
 # small matrices: threads of BLAS would only wait for each other
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
+# a hundred jobs would compile the same sources
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: help install reproduce test checked small-run test-long benchmark proof fuzz campaign docs clean
 help:
