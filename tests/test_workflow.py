@@ -110,10 +110,15 @@ def after(rules, follows):
     return found
 
 
+@pytest.fixture(scope="module")
+def drawn(finished):
+    """The rules and which follows which."""
+    return snakemake(finished, "all", "--rulegraph", "dot", "--config", "recordings_dir=nowhere")
+
+
 @pytest.mark.parametrize("profile", ["slurm", "slurm-generic"])
-def test_no_job_of_a_cluster_waits_for_itself(finished, profile):
+def test_no_job_of_a_cluster_waits_for_itself(finished, drawn, profile):
     """A group is one job: what one of its rules needs from outside must not need another one of them."""
-    drawn = snakemake(finished, "all", "--rulegraph", "dot", "--config", "recordings_dir=nowhere")
     names = dict(re.findall(r'(\d+)\[label = "(\w+)"', drawn))
     follows = {}
     for before, later in re.findall(r"(\d+) -> (\d+)", drawn):
