@@ -109,6 +109,16 @@ def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> Non
     assert "0.998004" in task_of(model.scene(case.recordings), cause, ratio).instruction
 
 
+@pytest.mark.parametrize(("size", "put"), [(4.07e-3, "Put −4.070 mrad per rad"), (-4.07e-3, "Put 4.070 mrad per rad")])
+def test_a_coupling_says_what_is_put_into_the_table_with_its_sign_and_once(size: float, put: str) -> None:
+    coupled = verdicts.found("joint_coupling", "joint 6 from joint 5", Parameter("coupling", "rad/rad", size, 1e-5))
+    case = verdicts.case(effects=(coupled,))
+    task = task_of(case.verdict.model.scene(case.recordings), contributions(case.verdict).causes[0], coupled)
+    assert put in task.instruction
+    assert "table" not in task.cure
+    assert "commanded = wanted - coupling x other" in task.cure
+
+
 def test_causes_that_work_against_each_other_are_commanded_away_together() -> None:
     """Each alone would make it worse; together they are all of the error."""
     against = [verdicts.found("joint_offset", f"joint {n}", Parameter("offset", "rad", 1e-3, 1e-5)) for n in (2, 3)]

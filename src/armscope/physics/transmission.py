@@ -218,10 +218,11 @@ JOINT_COUPLING = Effect(
     "The joint turns a little whenever another motor does (shared wrist gears, hoses, cables).",
     "Turn the other motor alone over its range and watch this joint.",
     command(
-        "Put minus the coefficient into the controller's wrist coupling table: "
-        "commanded = wanted - coupling x other (other: the angle of the motor it follows).",
+        "Put minus the coefficient into the controller's wrist coupling table,",
+        otherwise="or compensate for it in the command: commanded = wanted - coupling x other (other: the angle of the "
+        "motor it follows).",
         change="coupling table",
-        instruction="Put minus the coefficient into the coupling table for {location}.",
+        instruction="Put {coefficient}, minus the coefficient, into the controller's coupling table for {location}.",
     ),
     clauses=("{joint} turns by {coupling} of {source}",),
     departs=True,

@@ -72,7 +72,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     """
     # what scatters has no curve to correct by
     known = None if any(p.name == "scatter" for p in effect.parameters) else _definition(cause, effect)
-    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "soft_turn": "–"}
+    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "soft_turn": "–", "coefficient": "–"}
     words["jump"] = _jump(effect)
     words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
@@ -87,6 +87,9 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["size"] = f" (minus {size.value} × load)"
     if "soft_turn" in told:
         words["soft_turn"] = read_parameter(told["soft_turn"], effect.effect).value
+    if "coupling" in told:
+        value = read_parameter(told["coupling"], effect.effect).value
+        words["coefficient"] = value.removeprefix("−") if value.startswith("−") else f"−{value}"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
