@@ -45,7 +45,8 @@ def test_effects_that_follow_context_get_its_columns(tmp_path):
         (("--criterion", "O7"), "O1, O2, O3, O4 or O5"),
         (("--tracker", "4000,0"), "three numbers"),
         (("--tracker", "here"), "three numbers"),
-        (("-o", "poses.xlsx"), "ends in .csv"),
+        (("-o", "poses.txt"), "ends in .csv"),
+        (("-o", "poses.xlsx"), "Call it poses.csv"),
     ],
 )
 def test_bad_options_are_named(tmp_path, options, words):

@@ -71,7 +71,7 @@ def compared(tmp_path):
     table = pd.read_csv(EXAMPLE / "recordings.csv").head(80)
     files = [tmp_path / f"{NAME}{n}.csv" for n in "12"]
     table.to_csv(files[0], index=False)
-    moved = table.assign(q2_rad=table["q2_rad"] + 0.01)
+    moved = table.assign(q2_rad=table["q2_rad"] + 0.01, x_mm=table["x_mm"] + 0.02)  # no number is measured twice
     moved.to_csv(files[1], index=False)
     line = ["compare", *files, "-r", EXAMPLE / "robot.yaml", "-o", tmp_path / "out"]
     done = CliRunner().invoke(app, [str(each) for each in line])
