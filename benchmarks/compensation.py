@@ -24,9 +24,9 @@ from armscope.compensation.forward import PhysicalArm
 from armscope.compensation.path import as_path
 from armscope.compensation.physical import Identified, identified_on
 from armscope.compensation.task import Options
+from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import chain, load_arm
 

@@ -10,10 +10,10 @@ from armscope.compensation.black_box import error_model
 from armscope.compensation.physical import Identified, identified_on
 from armscope.errormodels.features import SDP_AI, SDP_CI, ModelSpec
 from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
+from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.robot import chain, load_arm
 from armscope.swarm.settings import SwarmSettings
 from tests.physics.scenes import arm_named, full_table

@@ -10,10 +10,9 @@ from armscope.compensation.compensate import compensate_black_box, compensate_ph
 from armscope.compensation.path import as_path
 from armscope.compensation.physical import drivers_of, identified_on, missing_context, with_torques
 from armscope.compensation.task import Options
-from armscope.physics.effect import Driver
+from armscope.physics.effect import Driver, Part
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.robot import chain
 from armscope.robot.gravity import gravity_torques
 from tests.physics.scenes import arm_named, full_table

@@ -9,9 +9,9 @@ import pytest
 from armscope.compensation.path import read_path
 from armscope.compensation.predicting import predict_file
 from armscope.physics.drift import Pause, base_shift, drift_with_pauses
+from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import save_model
-from armscope.physics.scene import Part
 from armscope.physics.wander import wander
 from armscope.recordings import read_recordings
 from armscope.robot import forward_kinematics, load_arm

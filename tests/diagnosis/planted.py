@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.fitting.registration import fit_frames
+from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.loads import STATED_MASSES, mass_errors
-from armscope.physics.scene import Part
 from armscope.recordings import read_recordings
 from armscope.robot import load_arm
 

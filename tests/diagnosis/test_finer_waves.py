@@ -12,9 +12,9 @@ from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise
 from armscope.physics.backgrounds import FAMILIES, TRANSMISSION, gear_waves
 from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
 from armscope.physics.model import Base, FittedModel, predict
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

@@ -11,10 +11,10 @@ from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.inference.problem import prior_costs
 from armscope.physics.backgrounds import ELASTIC, FAMILIES, SOFT, backgrounds
 from armscope.physics.drift import Pause, drift_with_pauses
+from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 from armscope.physics.soft_start import SOFT_START, soft_starts
 
 from .planted import planted

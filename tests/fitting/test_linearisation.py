@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.fitting.linearisation import LinearisedTable, residuals
+from armscope.physics.effect import Part
 from armscope.physics.model import FittedModel, predict
-from armscope.physics.scene import Part
 from tests.physics.scenes import arm_named, full_table
 from tests.physics.test_model import model_with_everything
 

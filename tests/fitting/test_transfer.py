@@ -11,12 +11,12 @@ from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.transfer import transfer
-from armscope.physics.effect import Driver
+from armscope.physics.effect import Driver, Part
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
 from armscope.physics.registry import library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

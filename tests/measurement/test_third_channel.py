@@ -21,12 +21,10 @@ from armscope.fitting.registration import fit_frames
 from armscope.measurement.channel import Channel
 from armscope.measurement.registry import CHANNELS
 from armscope.physics import registry
-from armscope.physics.cure import Cure
-from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Term, term
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Term, term
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_MASS
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Part
+from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.gravity import gravity_torques

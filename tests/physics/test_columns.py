@@ -13,12 +13,12 @@ from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift, tool_shift
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.frames import free_frames
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.registry import library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm

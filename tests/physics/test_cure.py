@@ -17,10 +17,10 @@ from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.diagnosis.summary.parameters import parameters
 from armscope.physics.drift import base_shift, tool_shift
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
@@ -242,7 +242,7 @@ def test_a_payload_stated_rightly_is_commanded_away_with_the_right_load(kind: st
         return rms(world.readings(angles) - world.wanted)
 
     assert part.placed.effect.cure.statement is not None
-    assert missed(part.placed.effect.cure.statement(stated, part)) < LEFT * missed(stated)
+    assert missed(stated.loaded_as(part.placed.effect.cure.statement(part))) < LEFT * missed(stated)
 
 
 def test_a_tool_that_moved_is_cured_by_the_moved_tool_point() -> None:

@@ -10,13 +10,14 @@ import pytest
 from armscope.core.inputs import InputError
 from armscope.physics.drift import base_shift
 from armscope.physics.drivers import KINDS, follows
-from armscope.physics.effect import Driver
+from armscope.physics.effect import Part
 from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY
 from armscope.physics.linkage_drivers import BARS
 from armscope.physics.load_drivers import LOADS
-from armscope.physics.loaded_arm import LoadedArm, Misstated
+from armscope.physics.loaded_arm import Misstated
 from armscope.physics.recorded_drivers import COLUMNS, RECORDED
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
+from armscope.physics.terms import Driver
 
 from .scenes import ARMS, arm_named, full_table
 
@@ -38,11 +39,11 @@ def test_a_payloads_torque_is_the_work_that_gravity_does_on_it_per_turn_of_the_m
     arm = arm_named(name)
     table = full_table(arm, 20, seed=7)
     assert table.payload is not None
-    loaded, empty = LoadedArm(arm, table), LoadedArm(arm, replace(table, payload=np.zeros(20)))
+    loaded, empty = Scene(arm, table), Scene(arm, replace(table, payload=np.zeros(20)))
     torque = loaded.gravity_torques - empty.gravity_torques
     for j in range(arm.n_motors):
         turned = table.motor_angles + STEP * np.eye(arm.n_motors)[j]
-        moved = LoadedArm(arm, replace(table, motor_angles=turned)).nominal.tool - loaded.nominal.tool
+        moved = Scene(arm, replace(table, motor_angles=turned)).nominal.tool - loaded.nominal.tool
         np.testing.assert_allclose(torque[:, j], table.payload * (moved @ arm.gravity) / STEP, atol=1e-3)
 
 
@@ -50,7 +51,7 @@ def test_a_payload_off_its_point_adds_its_weight_times_the_lever() -> None:
     arm = arm_named("six-axis")
     table = full_table(arm, 20, seed=8)
     off = np.array([0.1, -0.2, 0.05])
-    stated, other = LoadedArm(arm, table), LoadedArm(arm, table, Misstated(payload_offset=off))
+    stated, other = Scene(arm, table), Scene(arm, table, Misstated(payload_offset=off))
     assert table.payload is not None
     lever = stated.nominal.tool_rotation @ off
     last = np.cross(lever, table.payload[:, None] * arm.gravity)
@@ -71,9 +72,9 @@ def test_a_load_grows_per_kilogram_as_it_does_when_the_table_says_one_kilogram_m
 def test_a_heavier_link_loads_as_one_of_that_mass_does() -> None:
     arm = arm_named("six-axis")
     table = full_table(arm, 20, seed=10)
-    stated = LoadedArm(arm, table)
+    stated = Scene(arm, table)
     for link in (1, 3, 6):
-        heavier = LoadedArm(arm, table, Misstated(masses=0.2 * np.eye(6)[link - 1]))
+        heavier = Scene(arm, table, Misstated(masses=0.2 * np.eye(6)[link - 1]))
         for found, expected in zip(stated.with_heavier_link(link, 0.2).wrenches, heavier.wrenches, strict=True):
             np.testing.assert_allclose(found, expected, atol=1e-9)
 
@@ -82,8 +83,8 @@ def test_a_heavier_payload_loads_as_one_of_that_weight_does_where_it_is_off_its_
     arm = arm_named("six-axis")
     table = full_table(arm, 20, seed=11)
     for offset in (None, np.array([0.1, -0.2, 0.05])):
-        stated = LoadedArm(arm, table, Misstated(payload_offset=offset))
-        heavier = LoadedArm(arm, table, Misstated(payload_kg=3.0, payload_share=0.2, payload_offset=offset))
+        stated = Scene(arm, table, Misstated(payload_offset=offset))
+        heavier = Scene(arm, table, Misstated(payload_kg=3.0, payload_share=0.2, payload_offset=offset))
         for found, expected in zip(stated.with_heavier_payload(3.0, 0.2).wrenches, heavier.wrenches, strict=True):
             np.testing.assert_allclose(found, expected, atol=1e-9)
 

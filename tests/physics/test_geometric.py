@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.physics.effect import Part
 from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram
 from armscope.physics.linkage_drivers import FLAT
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 from armscope.robot.parallelogram import Linkage, forearm_deviation

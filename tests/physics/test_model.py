@@ -12,10 +12,10 @@ from scipy.spatial.transform import Rotation
 from armscope.core.inputs import InputError
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift
+from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
 from armscope.physics.registry import library
-from armscope.physics.scene import Part
 
 from .scenes import ARMS, arm_named, full_table
 

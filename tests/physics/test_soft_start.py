@@ -10,10 +10,10 @@ import pytest
 
 from armscope.core.inputs import InputError
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.effect import Driver
+from armscope.physics.effect import Driver, Part
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.physics.soft_start import soft_starts
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain

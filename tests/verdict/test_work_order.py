@@ -9,9 +9,10 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
+from armscope.physics.effect import Part
 from armscope.physics.freeform import UNKNOWN
 from armscope.physics.registry import EFFECTS
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections import work_order as section

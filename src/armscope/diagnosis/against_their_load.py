@@ -6,8 +6,8 @@ from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.fitting.refit import Refit
 from armscope.inference.evidence import Hypothesis
+from armscope.physics.effect import Part
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
-from armscope.physics.scene import Part
 
 
 def against_their_load(space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:

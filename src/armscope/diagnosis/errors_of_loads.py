@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from armscope.physics.effect import Effect, Placed
+from armscope.physics.effect import Effect, Part, Placed
 from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import FittedModel
 from armscope.physics.payload import PAYLOAD_ERROR, payload_errors
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 

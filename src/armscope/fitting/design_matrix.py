@@ -20,7 +20,7 @@ from armscope.fitting.constants import STEPS
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Direction, Driver, Term
-from armscope.physics.posture import Posture
+from armscope.physics.scene import Posture
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,8 +18,7 @@ from armscope.measurement.channel import Channel, ChannelResiduals
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.registry import supported
 from armscope.physics.model import FittedModel
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Scene
+from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings
 
 Result = TypeVar("Result")

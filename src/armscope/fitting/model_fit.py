@@ -17,8 +17,8 @@ from armscope.inference.normal_equations import NormalEquations
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals, retracted
 from armscope.measurement.row_weights import RowWeights
+from armscope.physics.effect import Part
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Part
 
 
 class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):

@@ -18,9 +18,8 @@ from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.row_weights import RowNoise, RowWeights
-from armscope.physics.effect import Placed, Term
+from armscope.physics.effect import Part, Placed, Term
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Part
 
 
 @dataclass(frozen=True, eq=False)

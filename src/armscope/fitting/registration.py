@@ -10,9 +10,9 @@ from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, place_frames
 from armscope.measurement import robust
+from armscope.physics.effect import Part
 from armscope.physics.frames import TOOL_FRAME, ToolKey, free_frames, tool_keys
 from armscope.physics.model import Base, FittedModel
-from armscope.physics.scene import Part
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings
 from armscope.robot import Arm, tool_frames

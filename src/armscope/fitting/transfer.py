@@ -20,10 +20,9 @@ from armscope.measurement import robust
 from armscope.measurement.channel import retracted
 from armscope.measurement.registry import supported
 from armscope.physics.drivers import follows
-from armscope.physics.effect import Placed, Term
+from armscope.physics.effect import Part, Placed, Term
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 
 Frame = Literal["base", "tool"]

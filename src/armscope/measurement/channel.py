@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.physics.effect import Direction, Placed, Term
 from armscope.physics.model import FittedModel
-from armscope.physics.posture import Posture
+from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
 

@@ -15,7 +15,7 @@ from armscope.measurement.constants import WEIGHTS
 from armscope.physics.effect import AXES, Direction, Placed, Term
 from armscope.physics.frames import ToolKey, tool_key, tool_turns
 from armscope.physics.model import FittedModel
-from armscope.physics.posture import Posture
+from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
 NOT_THE_TOOLS_RAD = np.radians(5)

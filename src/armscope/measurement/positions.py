@@ -11,11 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel
-from armscope.physics.effect import AXES, Direction, Placed, Term
+from armscope.physics.effect import AXES, Direction, Part, Placed, Term
 from armscope.physics.frames import bases_and_tools, runs_of
 from armscope.physics.model import Base, FittedModel
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Part
+from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
 

@@ -11,8 +11,7 @@ from armscope.core.types import Array
 from armscope.measurement.channel import Channel
 from armscope.physics.effect import Direction, Product, Term
 from armscope.physics.model import FittedModel
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Scene
+from armscope.physics.scene import Posture, Scene
 
 
 @dataclass(frozen=True, eq=False)

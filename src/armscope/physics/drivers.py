@@ -6,21 +6,18 @@ A driver's value is zero where its context was not recorded, so that a missing v
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.effect import Driver, DriverKind
 from armscope.physics.linkage_drivers import BARS
 from armscope.physics.load_drivers import LOADS
+from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.recorded_drivers import RECORDED, side_of_approach
-
-if TYPE_CHECKING:
-    from armscope.physics.scene import Scene
+from armscope.physics.terms import Driver, DriverKind
 
 
-def driver_values(scene: Scene, driver: Driver) -> Array:
+def driver_values(scene: LoadedArm, driver: Driver) -> Array:
     """Values (N,) of a driver at the scene's rows, in SI units (time in hours).
 
     Raises:
@@ -29,11 +26,11 @@ def driver_values(scene: Scene, driver: Driver) -> Array:
     return np.asarray(KINDS[driver.kind].values(scene, *driver.arguments), dtype=np.float64)
 
 
-def _one(scene: Scene) -> Array:
+def _one(scene: LoadedArm) -> Array:
     return np.ones(len(scene))
 
 
-def _angle(scene: Scene, j: int, low: float = -np.inf, high: float = np.inf) -> Array:
+def _angle(scene: LoadedArm, j: int, low: float = -np.inf, high: float = np.inf) -> Array:
     """Motor angle j, rad; held at the ends of a range where one is given (a full turn away is the same place)."""
     angle = scene.recordings.motor_angles[:, j - 1]
     if np.isinf(low) and np.isinf(high):
@@ -43,32 +40,32 @@ def _angle(scene: Scene, j: int, low: float = -np.inf, high: float = np.inf) -> 
     return np.clip(np.where(beyond, turned, angle), low, high)
 
 
-def _sine(scene: Scene, j: int, periods: float, *ends: float) -> Array:
+def _sine(scene: LoadedArm, j: int, periods: float, *ends: float) -> Array:
     return np.sin(periods * _angle(scene, j, *ends))
 
 
-def _cosine(scene: Scene, j: int, periods: float, *ends: float) -> Array:
+def _cosine(scene: LoadedArm, j: int, periods: float, *ends: float) -> Array:
     return np.cos(periods * _angle(scene, j, *ends))
 
 
-def _chain_sine(scene: Scene, j: int, periods: int) -> Array:
+def _chain_sine(scene: LoadedArm, j: int, periods: int) -> Array:
     return np.sin(periods * scene.chain_angles[:, j - 1])
 
 
-def _chain_cosine(scene: Scene, j: int, periods: int) -> Array:
+def _chain_cosine(scene: LoadedArm, j: int, periods: int) -> Array:
     return np.cos(periods * scene.chain_angles[:, j - 1])
 
 
-def _chain_angle(scene: Scene, j: int) -> Array:
+def _chain_angle(scene: LoadedArm, j: int) -> Array:
     return scene.chain_angles[:, j - 1]
 
 
-def _lost_motion(scene: Scene, j: int, centre: float, width: float) -> Array:
+def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:
     """Side of approach where the joint stands near ``centre`` (a cubic spline of its angle)."""
     return side_of_approach(scene, j) * cubic_spline(_angle(scene, j), centre, width)
 
 
-def _spline(scene: Scene, source: Driver, centre: float, width: float) -> Array:
+def _spline(scene: LoadedArm, source: Driver, centre: float, width: float) -> Array:
     return cubic_spline(scene.driver(source), centre, width)
 
 

@@ -7,141 +7,86 @@ diagnosis multiplies the same drivers with the frames' Jacobians (`armscope.phys
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from numbers import Real
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from armscope.core.location import Location
+from armscope.core.types import Array
+from armscope.physics.clause import Clause, Told
+from armscope.physics.loaded_arm import LoadedArm, Misstated
+from armscope.physics.terms import AXES, ONE, Direction, Driver, DriverKind, Product, Term, motor, term
+from armscope.recordings import Recordings
+from armscope.robot import Arm
 
-if TYPE_CHECKING:
-    from armscope.core.types import Array
-    from armscope.physics.clause import Clause, Told
-    from armscope.physics.cure import Cure
-    from armscope.physics.scene import Part, Scene
-    from armscope.recordings import Recordings
-    from armscope.robot import Arm
+__all__ = [
+    "AXES",
+    "ONE",
+    "Cure",
+    "Direction",
+    "Driver",
+    "DriverKind",
+    "Effect",
+    "Family",
+    "Part",
+    "Placed",
+    "Product",
+    "Term",
+    "clash",
+    "motor",
+    "region",
+    "term",
+]
 
 Family = Literal["frame", "geometric", "transmission", "elastic", "thermal", "drift", "instrument", "unknown"]
 
-AXES = ("tx", "ty", "tz", "rx", "ry", "rz")
-"""The six directions of a twist: translations (m), then rotations (rad), along and about the axes of a frame."""
-
 
 @dataclass(frozen=True)
-class Direction:
-    """What moves per unit of a driver.
+class Effect:
+    """The definition of an effect: a new one is one of these, listed in `armscope.physics.registry`.
 
     Attributes:
-        location: "base", "joint j", "link j", "tool": a frame of the chain (see `armscope.robot.Chain.frame`);
-            "motor j": motor angle j, which turns chain joints through the arm's actuation; "instrument"; "payload".
-        axis: one of `AXES` for a frame, "turn" for a motor, "scale" for the instrument, "mass" for the payload; any
-            other moves no frame: only readings that know it see it (`armscope.measurement.channel`).
-    """
-
-    location: str
-    axis: str
-
-
-@dataclass(frozen=True)
-class Driver:
-    """What an effect follows: a kind that `armscope.physics.drivers` evaluates, and its arguments."""
-
-    kind: str
-    arguments: tuple[object, ...] = ()
-
-    def number(self, place: int) -> float:
-        """The argument at a place, which is a number."""
-        value = self.arguments[place]
-        assert isinstance(value, Real), self
-        return float(value)
-
-
-@dataclass(frozen=True)
-class DriverKind:
-    """How a driver is evaluated, and all that anybody else asks about it.
-
-    Attributes:
-        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
-        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
-        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
-            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
-            the arm).
-        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
-    """
-
-    values: Callable[..., Array]
-    needs: str = ""
-    follows: frozenset[str] = frozenset()
-    unit: str = ""
-
-
-ONE = Driver("one")
-
-
-@dataclass(frozen=True)
-class Product:
-    """One direction times one driver times a number."""
-
-    direction: Direction
-    driver: Driver
-    factor: float = 1.0
-
-
-@dataclass(frozen=True)
-class Term:
-    """One linear parameter: per unit of it, the sum of the products moves the arm.
-
-    Attributes:
-        name: the parameter's name in the files ("compliance", "a", "offset", ...).
-        unit: its unit in the files.
-        si: SI units per file unit (1e-3 for mm).
-        products: what one SI unit of the parameter does.
-        plausible: SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part
-            of what the term is: two tables may give a load's term different ones.
-        learned: SI, the same of arms of this type, where a fleet has shown it (`armscope.physics.learned_sizes`).
+        name: as in the verdict.
+        family: what kind of physics it is.
+        place: the effect at every location of an arm where the recordings can show it.
+        physics: one sentence: what happens.
+        confirm: one sentence: how to confirm it on the real arm.
+        cure: how to take it out, in words and as code (`armscope.physics.cure`).
+        clauses: what a headline says of it (`armscope.physics.clause`); the first whose numbers are told is said.
+        labels: its parameters' names on a card, where their own don't say it.
+        atlas: the atlas' column in which it shows, or a function that gives it; "" for none. Elsewhere than at a joint
+            or the base, and in a column of its own, it is weighed there as a whole.
+        drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
+        needs: context columns without which it can't be seen.
+        requires: family without which it does nothing: a payload's error shows through what gives way.
+        departs: its values are departures from what is stated, which carry their sign.
+        jumps: it holds from a moment on, before which it is not there.
+        nonnegative: its one value is not negative: what gives way does so along its load.
+        several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
+        contained_in: free curves, by driver, that hold it as a special case at the same location.
+        exact: its motion where the terms are only the slope: (direction, amount (N,)) of a part at a scene's rows.
     """
 
     name: str
-    unit: str
-    si: float
-    products: tuple[Product, ...]
-    plausible: float = field(default=math.inf, compare=False)
-    learned: float | None = field(default=None, compare=False)
-
-    @property
-    def prior_size(self) -> float:
-        """SI, one standard deviation of what is believed before the rows speak."""
-        return self.plausible if self.learned is None else self.learned
-
-
-def term(
-    name: str,
-    unit: str,
-    *products: Product | tuple[Direction, Driver],
-    si: float = 1.0,
-    plausible: float = math.inf,
-) -> Term:
-    """A term from products or (direction, driver) pairs.
-
-    Args:
-        name: of the parameter.
-        unit: of the parameter in files.
-        products: products of directions and drivers.
-        si: SI units per file unit.
-        plausible: SI, the size that it has on real arms.
-
-    Returns:
-        The term.
-    """
-    made = tuple(p if isinstance(p, Product) else Product(*p) for p in products)
-    return Term(name, unit, si, made, plausible)
-
-
-def motor(j: int) -> Direction:
-    """Motor angle j (1-based)."""
-    return Direction(f"motor {j}", "turn")
+    family: Family
+    place: Callable[[Arm, Recordings], Iterable[Placed]] = field(repr=False, compare=False)
+    physics: str = field(compare=False)
+    confirm: str = field(compare=False)
+    cure: Cure = field(compare=False)
+    clauses: tuple[Clause, ...] = field(default=(), repr=False, compare=False)
+    labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    atlas: str | Callable[[Told], str] = field(default="", repr=False, compare=False)
+    drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
+    needs: tuple[str, ...] = ()
+    requires: str = ""
+    departs: bool = False
+    jumps: bool = False
+    nonnegative: bool = False
+    several: bool = False
+    contained_in: tuple[str, ...] = ()
+    exact: Callable[[LoadedArm, Part], Iterable[tuple[Direction, Array]]] | None = field(
+        default=None, repr=False, compare=False
+    )
 
 
 @dataclass(frozen=True)
@@ -200,52 +145,51 @@ class Placed:
         return f"{self.name} at {self.location}" + (f" ({extra})" if extra else "")
 
 
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A placed effect with the values of its terms, SI units."""
+
+    placed: Placed
+    values: Array
+
+
 @dataclass(frozen=True)
-class Effect:
-    """The definition of an effect: a new one is one of these, listed in `armscope.physics.registry`.
+class Cure:
+    """What to do about an effect.
 
     Attributes:
-        name: as in the verdict.
-        family: what kind of physics it is.
-        place: the effect at every location of an arm where the recordings can show it.
-        physics: one sentence: what happens.
-        confirm: one sentence: how to confirm it on the real arm.
-        cure: how to take it out, in words and as code (`armscope.physics.cure`).
-        clauses: what a headline says of it (`armscope.physics.clause`); the first whose numbers are told is said.
-        labels: its parameters' names on a card, where their own don't say it.
-        atlas: the atlas' column in which it shows, or a function that gives it; "" for none. Elsewhere than at a joint
-            or the base, and in a column of its own, it is weighed there as a whole.
-        drivers: kinds of drivers that it brings along, by name (`armscope.physics.drivers`).
-        needs: context columns without which it can't be seen.
-        requires: family without which it does nothing: a payload's error shows through what gives way.
-        departs: its values are departures from what is stated, which carry their sign.
-        jumps: it holds from a moment on, before which it is not there.
-        nonnegative: its one value is not negative: what gives way does so along its load.
-        several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
-        contained_in: free curves, by driver, that hold it as a special case at the same location.
-        exact: its motion where the terms are only the slope: (direction, amount (N,)) of a part at a scene's rows.
+        mend: what to do, with the sign ("," or ";" or ".") after which `otherwise` goes on; what names a formula names
+            it with its sign.
+        otherwise: what else can be done, as the same sentence or the next one goes on: "or compensate for it in the
+            command: ...".
+        change: what is changed, in two words, for a work order.
+        instruction: how, as a work order says it: a template over {location} and what is known of the effect
+            (`armscope.verdict.work_order`).
+        commanded: (scene at the wanted angles, fitted part) -> (N, m) angles to command, rad.
+        statement: part -> by how much what was stated is wrong, which is then put right.
+        readings: ((N, 3) readings in base axes, part) -> corrected readings.
+
+    Where none of the three is given, the cure is the corrected model: command what its inverse kinematics asks for.
     """
 
-    name: str
-    family: Family
-    place: Callable[[Arm, Recordings], Iterable[Placed]] = field(repr=False, compare=False)
-    physics: str = field(compare=False)
-    confirm: str = field(compare=False)
-    cure: Cure = field(compare=False)
-    clauses: tuple[Clause, ...] = field(default=(), repr=False, compare=False)
-    labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
-    atlas: str | Callable[[Told], str] = field(default="", repr=False, compare=False)
-    drivers: Mapping[str, DriverKind] = field(default_factory=dict, repr=False, compare=False)
-    needs: tuple[str, ...] = ()
-    requires: str = ""
-    departs: bool = False
-    jumps: bool = False
-    nonnegative: bool = False
-    several: bool = False
-    contained_in: tuple[str, ...] = ()
-    exact: Callable[[Scene, Part], Iterable[tuple[Direction, Array]]] | None = field(
-        default=None, repr=False, compare=False
-    )
+    mend: str
+    otherwise: str = field(default="", kw_only=True)
+    change: str = field(default="", kw_only=True)
+    instruction: str = field(default="", kw_only=True)
+    commanded: Callable[[LoadedArm, Part], Array] | None = None
+    statement: Callable[[Part], Misstated] | None = None
+    readings: Callable[[Array, Part], Array] | None = None
+
+    @property
+    def words(self) -> str:
+        """The whole of it, for the card."""
+        return f"{self.mend} {self.otherwise}".rstrip()
+
+    @property
+    def rule(self) -> str:
+        """What a work order says beside its instruction, which is the first half at length: what else can be done."""
+        said = self.otherwise if self.instruction else ""
+        return said[:1].upper() + said[1:] or self.words
 
 
 def clash(one: Placed, other: Placed) -> bool:

@@ -9,8 +9,8 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.physics.clause import clear_ones
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure, command
-from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.cure import command
+from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.load_drivers import static_regressor
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene

@@ -6,9 +6,8 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from armscope.physics.cure import Cure
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import AXES, Driver, Effect, Placed
+from armscope.physics.effect import AXES, Cure, Driver, Effect, Placed
 from armscope.physics.placing import nowhere
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings

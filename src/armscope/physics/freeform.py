@@ -11,9 +11,9 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure, command
+from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.elastic import drive, loaded_joints
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns

@@ -11,11 +11,12 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure, command
-from armscope.physics.effect import AXES, ONE, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.cure import command
+from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
 from armscope.physics.linkage_drivers import FLAT
+from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere
-from armscope.physics.scene import LINKAGE_JOINT, Part, Scene
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
@@ -258,7 +259,7 @@ def _bars_at(scene: Scene, angles_deg: Array) -> list[Placed]:
     ]
 
 
-def _closed_loop(scene: Scene, part: Part) -> Iterator[tuple[Direction, Array]]:
+def _closed_loop(scene: LoadedArm, part: Part) -> Iterator[tuple[Direction, Array]]:
     """The forearm's turn with the bars' lengths in error, rad: the loop closed exactly where the bars are stated."""
     if scene.arm.description.parallelogram is None:
         amounts = zip(part.values, part.placed.terms, strict=True)

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
-from armscope.physics.effect import ONE, Direction, Effect, Placed, term
+from armscope.physics.effect import ONE, Cure, Direction, Effect, Placed, term
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

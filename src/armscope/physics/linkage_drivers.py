@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.effect import DriverKind
-
-if TYPE_CHECKING:
-    from armscope.physics.scene import Scene
-
+from armscope.physics.loaded_arm import LoadedArm
+from armscope.physics.terms import DriverKind
 
 FLAT = 0.1
 """Sine of the angle between crank and upper arm below which a parallelogram counts as flat.
@@ -21,30 +16,30 @@ arm should not come near it; it was 0.2 until a simulated arm whose unstated lin
 """
 
 
-def _rod(scene: Scene) -> Array:
+def _rod(scene: LoadedArm) -> Array:
     """Forearm angle per metre that rod minus upper arm differs from the parallelogram: -1 / (k sin gamma)."""
     gamma = _crank_to_upper_arm(scene)
     return -1.0 / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
 
 
-def _rocker(scene: Scene) -> Array:
+def _rocker(scene: LoadedArm) -> Array:
     """Forearm angle per metre that rocker minus crank differs from the parallelogram: cot(gamma) / k."""
     gamma = _crank_to_upper_arm(scene)
     return np.cos(gamma) / (scene.linkage.rocker * _away_from_zero(np.sin(gamma)))
 
 
-def _rod_share(scene: Scene, crank_angle: float) -> Array:
+def _rod_share(scene: LoadedArm, crank_angle: float) -> Array:
     """As `_rod`, per share of the rocker's length, for a rocker that stands at ``crank_angle`` on the forearm, rad."""
     return -1.0 / _away_from_zero(np.sin(scene.elbow_angle + crank_angle))
 
 
-def _rocker_share(scene: Scene, crank_angle: float) -> Array:
+def _rocker_share(scene: LoadedArm, crank_angle: float) -> Array:
     """As `_rocker`, per share of the rocker's length."""
     gamma = scene.elbow_angle + crank_angle
     return np.cos(gamma) / _away_from_zero(np.sin(gamma))
 
 
-def _crank_to_upper_arm(scene: Scene) -> Array:
+def _crank_to_upper_arm(scene: LoadedArm) -> Array:
     return scene.elbow_angle + scene.linkage.crank_angle
 
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.effect import Driver, DriverKind
+from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.recorded_drivers import recorded
+from armscope.physics.terms import Driver, DriverKind
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
-
-if TYPE_CHECKING:
-    from armscope.physics.scene import Scene
 
 SMALL_SHARE = 1e-3
 """Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
@@ -22,31 +19,31 @@ ROUNDING_NM = 1e-9
 """Torque below which a motor bears no load, on neither side of its gap: what rounding leaves of none."""
 
 
-def _payload(scene: Scene) -> Array:
+def _payload(scene: LoadedArm) -> Array:
     return scene.payload
 
 
-def _force(scene: Scene, location: str, axis: int) -> Array:
+def _force(scene: LoadedArm, location: str, axis: int) -> Array:
     """Weight beyond a frame, in the frame's axes, N."""
     return scene.force(location)[:, axis]
 
 
-def _torque(scene: Scene, j: int) -> Array:
+def _torque(scene: LoadedArm, j: int) -> Array:
     """Recorded torque where there is one (positive along gravity's pull), else gravity of the stated masses."""
     return scene.torques[:, j - 1]
 
 
-def _gravity_torque(scene: Scene, j: int) -> Array:
+def _gravity_torque(scene: LoadedArm, j: int) -> Array:
     """Torque of gravity by the stated masses and payload, whatever was recorded."""
     return scene.gravity_torques[:, j - 1]
 
 
-def _payload_torque(scene: Scene, j: int) -> Array:
+def _payload_torque(scene: LoadedArm, j: int) -> Array:
     """Torque on motor j of the payload alone."""
     return _unit_mass_torques(scene)[:, j - 1] * np.nan_to_num(recorded(scene, "payload"))
 
 
-def _unit_mass_torques(scene: Scene) -> Array:
+def _unit_mass_torques(scene: LoadedArm) -> Array:
     """(N, m) torque of one kilogram at the tool point."""
 
     def compute() -> Array:
@@ -56,14 +53,14 @@ def _unit_mass_torques(scene: Scene) -> Array:
     return np.asarray(scene.remember("unit mass torques", compute))
 
 
-def _heavier(scene: Scene, load: Driver) -> Array:
+def _heavier(scene: LoadedArm, load: Driver) -> Array:
     """Change of a load driver per kilogram more at the tool point."""
     heavier = scene.remember("heavier", lambda: scene.with_heavier_payload(1.0, 0.0))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
 
-def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
+def _off_centre(scene: LoadedArm, load: Driver, axis: int) -> Array:
     """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
     off = replace(scene.misstated, payload_offset=np.eye(3)[axis])
     shifted = scene.remember(("off centre", axis), lambda: scene.loaded_as(off))
@@ -71,45 +68,45 @@ def _off_centre(scene: Scene, load: Driver, axis: int) -> Array:
     return change
 
 
-def _heavier_by_share(scene: Scene, load: Driver) -> Array:
+def _heavier_by_share(scene: LoadedArm, load: Driver) -> Array:
     """Change of a load driver per share of the stated payload that it is heavier."""
     heavier = scene.remember("heavier by share", lambda: scene.with_heavier_payload(0.0, 1.0))
     change: Array = heavier.driver(load) - scene.driver(load)
     return change
 
 
-def _heavier_link(scene: Scene, load: Driver, link: int) -> Array:
+def _heavier_link(scene: LoadedArm, load: Driver, link: int) -> Array:
     """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
     change: Array = scene.with_heavier_link(link, SMALL_SHARE).driver(load) - scene.driver(load)
     return change / SMALL_SHARE
 
 
-def _regressor(scene: Scene, j: int, *weights: float) -> Array:
+def _regressor(scene: LoadedArm, j: int, *weights: float) -> Array:
     """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
     return np.asarray(static_regressor(scene)[:, j - 1] @ np.array(weights))
 
 
-def static_regressor(scene: Scene) -> Array:
+def static_regressor(scene: LoadedArm) -> Array:
     """(N, m, k) gravity torque on the motors per unit of each mass moment (`mass_moment_regressor`), computed once."""
     return np.asarray(scene.remember("regressor", lambda: mass_moment_regressor(scene.arm, scene.loaded)))
 
 
-def _load_side(scene: Scene, j: int) -> Array:
+def _load_side(scene: LoadedArm, j: int) -> Array:
     torque = _torque(scene, j)
     return np.where(np.abs(torque) > ROUNDING_NM, np.sign(torque), 0.0)
 
 
-def _soft_start(scene: Scene, j: int, knee: float) -> Array:
+def _soft_start(scene: LoadedArm, j: int, knee: float) -> Array:
     """Turn of a drive that is softer under small loads, as a share of what it comes to; the knee in N m."""
     return np.asarray(np.tanh(_torque(scene, j) / knee))
 
 
-def _moment(scene: Scene, location: str, axis: int) -> Array:
+def _moment(scene: LoadedArm, location: str, axis: int) -> Array:
     """Moment of gravity about the frame's origin, in the frame's axes, N m."""
     return scene.moment(location)[:, axis]
 
 
-def _bend(scene: Scene, link: int, axis: int) -> Array:
+def _bend(scene: LoadedArm, link: int, axis: int) -> Array:
     """Twist of a link's end per unit flexibility 1/(E I), Euler-Bernoulli cantilever under end force and moment."""
     return scene.bending(link)[:, axis]
 

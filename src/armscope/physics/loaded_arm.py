@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
@@ -11,9 +12,14 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.physics.terms import Driver
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_wrenches, weight_at_tool, weight_of_link
+from armscope.robot.parallelogram import Linkage
+
+LINKAGE_JOINT = 3
+"""The chain joint that a parallelogram drives."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +42,8 @@ class Misstated:
 AS_STATED = Misstated()
 
 
-class LoadedArm:
-    """An arm at N recorded rows, and what gravity does to it there.
+class LoadedArm(ABC):
+    """An arm at N recorded rows, and what gravity does to it there; what effects follow is up to `Scene`.
 
     Args:
         arm: the arm.
@@ -47,13 +53,19 @@ class LoadedArm:
     Attributes:
         nominal: frames without any effect.
         loaded: frames at which loads are taken.
+        chain_angles: (N, n) angles of the chain's joints, rad.
     """
 
     def __init__(self, arm: Arm, recordings: Recordings, misstated: Misstated = AS_STATED) -> None:
         self.arm, self.recordings, self.misstated = arm, recordings, misstated
         self.nominal: Chain = chain(arm, recordings.motor_angles)
         self.loaded: Chain = self.nominal
+        self.chain_angles: Array = recordings.motor_angles @ arm.actuation.T
         self._memory: dict[Any, Any] = {}
+
+    @abstractmethod
+    def driver(self, driver: Driver) -> Array:
+        """Values (N,) of a driver."""
 
     def __len__(self) -> int:
         return len(self.recordings)
@@ -98,6 +110,19 @@ class LoadedArm:
             known = (link, share, self._loaded_by(heavier, share * force, share * moment))
             self._memory["heavier link"] = known
         return known[2]
+
+    @property
+    def linkage(self) -> Linkage:
+        """The nominal parallelogram."""
+        assert self.arm.description.parallelogram is not None
+        return Linkage.from_description(self.arm.description.parallelogram)
+
+    @property
+    def elbow_angle(self) -> Array:
+        """(N,) D-H angle of the joint that the parallelogram drives, rad."""
+        rows = self.arm.description.dh
+        offset = 0.0 if rows is None else np.radians(rows.joints[LINKAGE_JOINT - 1].theta_offset_deg)
+        return self.chain_angles[:, LINKAGE_JOINT - 1] + offset
 
     @property
     def payload(self) -> Array:

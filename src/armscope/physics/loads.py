@@ -11,11 +11,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
 from armscope.physics.drivers import follows
-from armscope.physics.effect import Driver, Effect, Placed, Product, Term
+from armscope.physics.effect import Cure, Driver, Effect, Part, Placed, Product, Term
 from armscope.physics.placing import nowhere
-from armscope.physics.scene import Part
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

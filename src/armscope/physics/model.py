@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import ToolKey
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Posture, Scene
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm

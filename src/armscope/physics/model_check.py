@@ -11,12 +11,11 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.physics import drivers
-from armscope.physics.effect import AXES, Direction, Driver, Effect, Placed, Product, Term
+from armscope.physics.effect import AXES, Direction, Driver, Effect, Part, Placed, Product, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
 from armscope.physics.registry import effects
-from armscope.physics.scene import Part
 from armscope.physics.wander import BASE_WANDER, LINK_WANDER
 from armscope.robot import Arm
 

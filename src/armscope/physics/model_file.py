@@ -10,10 +10,9 @@ from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from armscope.core.files import write_yaml
 from armscope.core.inputs import InputError, Strict, format_of, read_yaml, validate
-from armscope.physics.effect import Driver
+from armscope.physics.effect import Driver, Part
 from armscope.physics.model import Base, FittedModel
 from armscope.physics.model_check import Reader
-from armscope.physics.scene import Part
 from armscope.robot.arm import build_arm
 from armscope.robot.description import RobotDescription
 

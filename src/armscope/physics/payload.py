@@ -12,13 +12,11 @@ import numpy as np
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
-from armscope.physics.effect import ONE, Direction, Driver, Effect, Placed, Product, Term
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.loaded_arm import Misstated
 from armscope.physics.loads import givings
 from armscope.physics.placing import nowhere, varies
-from armscope.physics.scene import Part, Scene
 from armscope.recordings import Recordings
 
 LEAST_PAYLOAD_KG = 1e-6
@@ -86,11 +84,11 @@ def _term(
     return Term(name, unit, si, (*through, *itself))
 
 
-def _restated(scene: Scene, part: Part) -> Scene:
-    """The scene with the payload as it is."""
+def _restated(part: Part) -> Misstated:
+    """What the payload is more than stated."""
     values = {term.name: float(value) for term, value in zip(part.placed.terms, part.values, strict=True)}
     offset = np.array([values.get(f"com_{axis}", 0.0) for axis in "xyz"])
-    return scene.loaded_as(Misstated(values.get("mass", 0.0), values.get("share", 0.0), offset))
+    return Misstated(values.get("mass", 0.0), values.get("share", 0.0), offset)
 
 
 def _not_as_stated(told: Told) -> str:

@@ -5,16 +5,12 @@ A driver is zero where it was not recorded, so that a missing value neither help
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.physics.effect import DriverKind
-
-if TYPE_CHECKING:
-    from armscope.physics.scene import Scene
+from armscope.physics.loaded_arm import LoadedArm
+from armscope.physics.terms import DriverKind
 
 REFERENCE_TEMPERATURE_C = 20.0
 """Lengths hold at this temperature."""
@@ -30,7 +26,7 @@ COLUMNS = {
 """Context: field of the recordings, and the column (one per motor for the last two) that it comes from."""
 
 
-def recorded(scene: Scene, context: str, motor: int = 0) -> Array:
+def recorded(scene: LoadedArm, context: str, motor: int = 0) -> Array:
     """A context field of the scene's recordings ("temperature", ...), or one motor's column of it, NaN where unknown.
 
     Args:
@@ -57,56 +53,56 @@ def recorded(scene: Scene, context: str, motor: int = 0) -> Array:
     )
 
 
-def side_of_approach(scene: Scene, j: int) -> Array:
+def side_of_approach(scene: LoadedArm, j: int) -> Array:
     """(N,) side from which motor j came, -1 or 1; 0 where it was not recorded."""
     return np.nan_to_num(recorded(scene, "approach", j))
 
 
-def _speed(scene: Scene, j: int) -> Array:
+def _speed(scene: LoadedArm, j: int) -> Array:
     return np.nan_to_num(recorded(scene, "speed", j))
 
 
-def _warmth(scene: Scene) -> Array:
+def _warmth(scene: LoadedArm) -> Array:
     """Temperature above the reference, K."""
     return np.nan_to_num(recorded(scene, "temperature") - REFERENCE_TEMPERATURE_C)
 
 
-def _hours(scene: Scene, start: float) -> Array:
+def _hours(scene: LoadedArm, start: float) -> Array:
     """Hours since ``start`` (s)."""
     return np.nan_to_num((recorded(scene, "time") - start) / SECONDS_PER_HOUR)
 
 
-def _rows(scene: Scene) -> Array:
+def _rows(scene: LoadedArm) -> Array:
     """Thousands of rows since the table's beginning."""
     return np.nan_to_num(scene.recordings.number / ROWS_PER_UNIT)
 
 
-def _after_time(scene: Scene, start: float, run: str, *later: str) -> Array:
+def _after_time(scene: LoadedArm, start: float, run: str, *later: str) -> Array:
     """From a time of a run on, and in later runs."""
     return np.where(_in_run(scene, run), recorded(scene, "time") >= start, _in_run(scene, *later))
 
 
-def _after_row(scene: Scene, first_row: float, run: str, *later: str) -> Array:
+def _after_row(scene: LoadedArm, first_row: float, run: str, *later: str) -> Array:
     """From a row of a run on, and in later runs, and now; counted as `Recordings.number` says."""
     before = scene.recordings.number < first_row
     return np.where(_in_run(scene, run), ~before, _in_run(scene, *later))
 
 
-def _in_run(scene: Scene, *runs: str) -> Array:
+def _in_run(scene: LoadedArm, *runs: str) -> Array:
     return np.asarray(np.isin(scene.recordings.run, runs))
 
 
-def _after_pause(scene: Scene, first_row: float, run: str, *later: str) -> Array:
+def _after_pause(scene: LoadedArm, first_row: float, run: str, *later: str) -> Array:
     """What a pause adds to what follows the order of rows; like that, zero where a row's number is not known."""
     return np.where(np.isnan(scene.recordings.number), 0.0, _after_row(scene, first_row, run, *later))
 
 
-def _rows_in_run(scene: Scene, *runs: str) -> Array:
+def _rows_in_run(scene: LoadedArm, *runs: str) -> Array:
     """In a run, what belongs to a wave in the order of rows; like that, zero where a row's number is not known."""
     return np.where(np.isnan(scene.recordings.number), 0.0, _in_run(scene, *runs))
 
 
-def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
+def _slow_wave(scene: LoadedArm, waves: int, first: float, last: float) -> Array:
     """Cosine of so many half waves from the first time (s) to the last, standing still before and after.
 
     Zero where no time was recorded: how the set-up then stands is not known.
@@ -115,7 +111,7 @@ def _slow_wave(scene: Scene, waves: int, first: float, last: float) -> Array:
     return np.zeros(len(scene)) if time is None else np.nan_to_num(_half_waves(time, waves, first, last))
 
 
-def _slow_wave_of_rows(scene: Scene, waves: int, first: float, last: float) -> Array:
+def _slow_wave_of_rows(scene: LoadedArm, waves: int, first: float, last: float) -> Array:
     """The same along the order of rows."""
     return np.nan_to_num(_half_waves(scene.recordings.number, waves, first, last))
 
@@ -125,11 +121,11 @@ def _half_waves(at: Array, waves: int, first: float, last: float) -> Array:
     return np.asarray(np.cos(np.pi * waves * along))
 
 
-def _on_target(scene: Scene, target: str) -> Array:
+def _on_target(scene: LoadedArm, target: str) -> Array:
     return np.asarray(scene.recordings.target == target)
 
 
-def _on_target_in_run(scene: Scene, target: str, run: str) -> Array:
+def _on_target_in_run(scene: LoadedArm, target: str, run: str) -> Array:
     return np.asarray((scene.recordings.target == target) & (scene.recordings.run == run))
 
 

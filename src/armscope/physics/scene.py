@@ -9,30 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import drivers
-from armscope.physics.effect import AXES, Direction, Driver, Placed
+from armscope.physics.effect import Part
 from armscope.physics.loaded_arm import AS_STATED, LoadedArm, Misstated
-from armscope.physics.posture import FRAMES, Posture
+from armscope.physics.terms import AXES, Direction, Driver, Term, motor
 from armscope.recordings import Recordings
-from armscope.robot import Arm, Chain, chain
-from armscope.robot.parallelogram import Linkage
+from armscope.robot import Arm, Chain, chain, twist_jacobian
+from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
 
-LINKAGE_JOINT = 3
-"""The chain joint that a parallelogram drives."""
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """A placed effect with the values of its terms, SI units."""
-
-    placed: Placed
-    values: Array
+FRAMES = ("base", "joint", "link", "tool")
+"""Kinds of places that a twist moves; other directions are seen by instruments that do not look at the tool."""
 
 
 class Scene(LoadedArm):
@@ -42,14 +34,10 @@ class Scene(LoadedArm):
         arm: the arm.
         recordings: the rows; only angles and context are used, not the measured positions.
         misstated: by how much loads are other than stated.
-
-    Attributes:
-        chain_angles: (N, n) angles of the chain's joints, rad.
     """
 
     def __init__(self, arm: Arm, recordings: Recordings, misstated: Misstated = AS_STATED) -> None:
         super().__init__(arm, recordings, misstated)
-        self.chain_angles: Array = recordings.motor_angles @ arm.actuation.T
         self._rigid: Scene | None = None
 
     def driver(self, driver: Driver) -> Array:
@@ -64,19 +52,6 @@ class Scene(LoadedArm):
         bent = copy(self)
         bent.loaded, bent._memory, bent._rigid = frames, {}, self
         return bent
-
-    @property
-    def linkage(self) -> Linkage:
-        """The nominal parallelogram."""
-        assert self.arm.description.parallelogram is not None
-        return Linkage.from_description(self.arm.description.parallelogram)
-
-    @property
-    def elbow_angle(self) -> Array:
-        """(N,) D-H angle of the joint that the parallelogram drives, rad."""
-        rows = self.arm.description.dh
-        offset = 0.0 if rows is None else np.radians(rows.joints[LINKAGE_JOINT - 1].theta_offset_deg)
-        return self.chain_angles[:, LINKAGE_JOINT - 1] + offset
 
     def amounts(self, parts: Sequence[Part]) -> dict[Direction, Array]:
         """How much (N,) of every direction all parts together do, SI units."""
@@ -148,3 +123,71 @@ def _gives_way(part: Part) -> bool:
     return bool(np.any(part.values)) and any(
         drivers.follows("load", product.driver) for term in part.placed.terms for product in term.products
     )
+
+
+@dataclass(eq=False)
+class Posture:
+    """An arm's frames at N rows with some effects in place, and the columns of further small effects there.
+
+    Attributes:
+        scene: rows and drivers.
+        frames: where the frames stand, base axes.
+        stretch: relative length error of the instrument.
+        moved, turned: what was computed of `displacement` and `turn`.
+    """
+
+    scene: Scene
+    frames: Chain
+    stretch: float = 0.0
+    moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
+    turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
+
+    @property
+    def tool(self) -> Array:
+        """(N, 3) tool points as the instrument sees them, in base axes, m."""
+        return self.frames.tool * (1 + self.stretch)
+
+    def displacement(self, direction: Direction) -> Array | None:
+        """(N, 3) displacement of the tool point per unit of a direction, m; None where nothing moves."""
+        if direction not in self.moved:
+            self.moved.update(self._displacements(direction.location))
+        return self.moved.get(direction)
+
+    def turn(self, direction: Direction) -> Array | None:
+        """(N, 3) turn of the tool per unit of a direction, rad; None where nothing turns."""
+        if direction not in self.turned:
+            self.turned.update(self._turns(direction.location))
+        return self.turned.get(direction)
+
+    def column(self, term: Term) -> Array:
+        """(N, 3) displacement of the tool point per SI unit of a term, m."""
+        total = np.zeros_like(self.frames.tool)
+        for product in term.products:
+            moved = self.displacement(product.direction)
+            if moved is not None:
+                total += moved * (product.factor * self.scene.driver(product.driver))[:, None]
+        return total
+
+    def _displacements(self, location: str) -> dict[Direction, Array]:
+        kind = Location.of(location).kind
+        if kind == "instrument":
+            return {Direction(location, "scale"): self.frames.tool}
+        if kind == "motor":
+            return _by_motor(joint_jacobian(self.frames) @ self.scene.arm.actuation)
+        return _by_axis(location, twist_jacobian(self.frames, location)) if kind in FRAMES else {}
+
+    def _turns(self, location: str) -> dict[Direction, Array]:
+        kind = Location.of(location).kind
+        if kind == "motor":
+            return _by_motor(joint_axes(self.frames) @ self.scene.arm.actuation)
+        return _by_axis(location, turn_jacobian(self.frames, location)) if kind in FRAMES else {}
+
+
+def _by_motor(jacobian: Array) -> dict[Direction, Array]:
+    """Columns (N, 3) of a Jacobian (N, 3, m) by the motors' directions."""
+    return {motor(j + 1): jacobian[:, :, j] for j in range(jacobian.shape[2])}
+
+
+def _by_axis(location: str, jacobian: Array) -> dict[Direction, Array]:
+    """Columns (N, 3) of a Jacobian (N, 3, 6) by the directions of a frame."""
+    return {Direction(location, name): jacobian[:, :, axis] for axis, name in enumerate(AXES)}

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
-from armscope.physics.effect import Direction, Driver, Effect, Placed, Product, term
+from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm

@@ -9,9 +9,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
 from armscope.physics.drift import LEAST_SPAN_S, six_terms
-from armscope.physics.effect import Driver, Effect, Placed, Product, Term, term
+from armscope.physics.effect import Cure, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps
 from armscope.physics.thermal import growing_links

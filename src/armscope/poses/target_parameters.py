@@ -14,12 +14,12 @@ from armscope.core.location import Location
 from armscope.core.types import Array, Indices
 from armscope.design.independence import independent_columns
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import AXES, ONE, Placed, Term
+from armscope.physics.effect import AXES, ONE, Part, Placed, Term
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import background
 from armscope.physics.registry import effects as all_effects
 from armscope.physics.registry import library
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

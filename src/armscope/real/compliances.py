@@ -37,11 +37,10 @@ from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
 from armscope.physics.backgrounds import TOLERANCE
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
-from armscope.physics.scene import Part
 from armscope.physics.transmission import mesh
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.diagnosis import Verdict
+from armscope.physics.effect import Part
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 
 STEP = np.radians(0.5)

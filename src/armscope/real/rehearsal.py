@@ -18,8 +18,8 @@ from scipy.spatial.transform import Rotation
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics import elastic, geometric, transmission
+from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
-from armscope.physics.scene import Part
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
 from armscope.real.compliances import as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
 from armscope.real.reference import ReferenceCompliances

@@ -17,9 +17,8 @@ from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
-from armscope.physics.effect import AXES, Direction
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Part
+from armscope.physics.effect import AXES, Direction, Part
+from armscope.physics.scene import Posture
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.wording import SMALL, main_and_minor

@@ -11,10 +11,10 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.physics.effect import Effect
+from armscope.physics.effect import Effect, Part
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.robot import Arm
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.physics.scene import LINKAGE_JOINT, Scene
+from armscope.physics.loaded_arm import LINKAGE_JOINT
+from armscope.physics.scene import Scene
 from armscope.robot import chain
 from armscope.robot.arm import build_arm
 from armscope.robot.kinematics import joint_jacobian

@@ -16,10 +16,9 @@ from armscope.fitting.registration import fit_frames
 from armscope.inference.search import Search
 from armscope.measurement.noise import Noise
 from armscope.physics.drift import BASE_SHIFT
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import Base, FittedModel, predict
-from armscope.physics.scene import Part
 from armscope.physics.transmission import GEAR_MESH, mesh
 
 from ..planted import planted

@@ -12,9 +12,10 @@ import pytest
 from armscope.core.types import Array
 from armscope.diagnosis.summary.effects import _with_drive_of_background
 from armscope.fitting.parameter_layout import parameter_layout
+from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.physics.frames import free_frames
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from tests.physics.scenes import arm_named, full_table
 
 ARM, JOINT = arm_named("six-axis"), 2

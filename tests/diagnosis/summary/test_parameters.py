@@ -9,8 +9,8 @@ import numpy as np
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.summary.parameters import beyond_plausible, undetermined
 from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.effect import Part
 from armscope.physics.geometric import LINK_GEOMETRY
-from armscope.physics.scene import Part
 from tests.diagnosis.planted import planted
 from tests.physics.scenes import arm_named, full_table
 

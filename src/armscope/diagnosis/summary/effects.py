@@ -26,9 +26,9 @@ from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import UNKNOWN_MASSES
-from armscope.physics.scene import Part, Scene
+from armscope.physics.scene import Scene
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
 

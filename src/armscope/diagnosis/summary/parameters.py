@@ -9,8 +9,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.effect import Placed
-from armscope.physics.scene import Part
+from armscope.physics.effect import Part, Placed
 from armscope.verdict.effects import Parameter
 from armscope.verdict.schema import Notice
 

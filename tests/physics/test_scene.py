@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.physics.effect import Direction
-from armscope.physics.posture import Posture
-from armscope.physics.scene import Scene
+from armscope.physics.scene import Posture, Scene
+from armscope.physics.terms import Direction
 from tests.physics.scenes import arm_named, full_table
 
 

@@ -1,0 +1,131 @@
+"""What an effect is made of: directions in which something moves, drivers that it follows, and their products.
+
+Everything is linear in one parameter per term, so that the exact model and the columns of the diagnosis are one text.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from numbers import Real
+
+from armscope.core.types import Array
+
+AXES = ("tx", "ty", "tz", "rx", "ry", "rz")
+"""The six directions of a twist: translations (m), then rotations (rad), along and about the axes of a frame."""
+
+
+@dataclass(frozen=True)
+class Direction:
+    """What moves per unit of a driver.
+
+    Attributes:
+        location: "base", "joint j", "link j", "tool": a frame of the chain (see `armscope.robot.Chain.frame`);
+            "motor j": motor angle j, which turns chain joints through the arm's actuation; "instrument"; "payload".
+        axis: one of `AXES` for a frame, "turn" for a motor, "scale" for the instrument, "mass" for the payload; any
+            other moves no frame: only readings that know it see it (`armscope.measurement.channel`).
+    """
+
+    location: str
+    axis: str
+
+
+@dataclass(frozen=True)
+class Driver:
+    """What an effect follows: a kind that `armscope.physics.drivers` evaluates, and its arguments."""
+
+    kind: str
+    arguments: tuple[object, ...] = ()
+
+    def number(self, place: int) -> float:
+        """The argument at a place, which is a number."""
+        value = self.arguments[place]
+        assert isinstance(value, Real), self
+        return float(value)
+
+
+@dataclass(frozen=True)
+class DriverKind:
+    """How a driver is evaluated, and all that anybody else asks about it.
+
+    Attributes:
+        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
+        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
+        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
+            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
+            the arm).
+        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
+    """
+
+    values: Callable[..., Array]
+    needs: str = ""
+    follows: frozenset[str] = frozenset()
+    unit: str = ""
+
+
+ONE = Driver("one")
+
+
+@dataclass(frozen=True)
+class Product:
+    """One direction times one driver times a number."""
+
+    direction: Direction
+    driver: Driver
+    factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class Term:
+    """One linear parameter: per unit of it, the sum of the products moves the arm.
+
+    Attributes:
+        name: the parameter's name in the files ("compliance", "a", "offset", ...).
+        unit: its unit in the files.
+        si: SI units per file unit (1e-3 for mm).
+        products: what one SI unit of the parameter does.
+        plausible: SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part
+            of what the term is: two tables may give a load's term different ones.
+        learned: SI, the same of arms of this type, where a fleet has shown it (`armscope.physics.learned_sizes`).
+    """
+
+    name: str
+    unit: str
+    si: float
+    products: tuple[Product, ...]
+    plausible: float = field(default=math.inf, compare=False)
+    learned: float | None = field(default=None, compare=False)
+
+    @property
+    def prior_size(self) -> float:
+        """SI, one standard deviation of what is believed before the rows speak."""
+        return self.plausible if self.learned is None else self.learned
+
+
+def term(
+    name: str,
+    unit: str,
+    *products: Product | tuple[Direction, Driver],
+    si: float = 1.0,
+    plausible: float = math.inf,
+) -> Term:
+    """A term from products or (direction, driver) pairs.
+
+    Args:
+        name: of the parameter.
+        unit: of the parameter in files.
+        products: products of directions and drivers.
+        si: SI units per file unit.
+        plausible: SI, the size that it has on real arms.
+
+    Returns:
+        The term.
+    """
+    made = tuple(p if isinstance(p, Product) else Product(*p) for p in products)
+    return Term(name, unit, si, made, plausible)
+
+
+def motor(j: int) -> Direction:
+    """Motor angle j (1-based)."""
+    return Direction(f"motor {j}", "turn")
