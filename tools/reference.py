@@ -17,6 +17,7 @@ from typing import Any
 from armscope.motion import contract as motion_contract
 from armscope.motion import verdict as motion_verdict
 from armscope.physics import model_file
+from armscope.physics.model_contents import ModelFile
 from armscope.recordings.columns import COLUMNS, LARGEST_NUMBER, Column
 from armscope.robot.description import RobotDescription
 from armscope.verdict import contract
@@ -119,7 +120,7 @@ def model() -> str:
     described = RobotDescription.model_json_schema()
     for name in ("RobotDescription", *described["$defs"]):
         schema["$defs"].pop(name, None)
-    return _page("model.yaml", MODEL, schema, model_file.ModelFile)
+    return _page("model.yaml", MODEL, schema, ModelFile)
 
 
 def recordings() -> str:

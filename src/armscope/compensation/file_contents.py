@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from armscope.compensation.domain import count_directions
 from armscope.core.inputs import Strict
 from armscope.errormodels.features import input_names
-from armscope.physics.model_file import BaseFile, Rotation, Word
+from armscope.physics.model_contents import BaseFile, Rotation, Word
 from armscope.robot.description import RobotDescription
 
 Number = Annotated[float, Field(ge=-1e9, le=1e9)]

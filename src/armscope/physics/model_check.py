@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,12 +15,10 @@ from armscope.physics.effect import AXES, Direction, Driver, Effect, Part, Place
 from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
+from armscope.physics.model_contents import PartFile
 from armscope.physics.registry import effects
 from armscope.physics.wander import BASE_WANDER, LINK_WANDER
 from armscope.robot import Arm
-
-if TYPE_CHECKING:
-    from armscope.physics.model_file import PartFile
 
 DEEPEST_DRIVER = 4
 """Levels of drivers of drivers."""

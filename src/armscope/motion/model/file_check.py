@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,13 +13,11 @@ from armscope.motion.library.catalogue import CAUSES
 from armscope.motion.library.causes import Moment, PlacedCause
 from armscope.motion.library.laws import LAWS, Law
 from armscope.motion.library.twist_catalogue import TWISTS
+from armscope.motion.model.file_contents import CauseFile, LawFile
 from armscope.motion.model.fitted import FittedCause
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import PARAMETERS, MovingArm
-
-if TYPE_CHECKING:
-    from armscope.motion.model.file import CauseFile, LawFile
 
 
 class CauseReader:
