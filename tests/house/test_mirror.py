@@ -20,7 +20,6 @@ STILL_FROM_ELSEWHERE = [
     "calibration/plausibility.py",
     "calibration/shared_frames.py",
     "calibration/state.py",
-    "calibration/summary_text.py",
     "check/contents.py",
     "check/orientations.py",
     "check/suspicion.py",

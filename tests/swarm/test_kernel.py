@@ -5,7 +5,8 @@ import multiprocessing
 import numpy as np
 import pytest
 
-from armscope.swarm.least_squares import LeastSquares, minimise_least_squares
+from armscope.swarm.least_squares import minimise_least_squares
+from armscope.swarm.least_squares_objective import LeastSquares
 from armscope.swarm.result import StopReason
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import spawn_generators

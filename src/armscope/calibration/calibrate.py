@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-import pandas as pd
-from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.confounding import Confounded, confounded_parameters
-from armscope.calibration.geometry import nominal_values
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
+from armscope.calibration.result import Calibration
 from armscope.calibration.shared_frames import sharing
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
 from armscope.calibration.splits import foretold, random_split
-from armscope.calibration.state import State
-from armscope.calibration.summary_text import in_words
 from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -37,101 +31,6 @@ DECIDING_ROWS = 1000
 
 HARM = 1.01
 """Orientations are left out if they raise the held-out RMS of positions by more than this factor."""
-
-
-@dataclass(frozen=True, eq=False)
-class Calibration:
-    """A calibrated arm.
-
-    Attributes:
-        level: what was free beyond base and tool.
-        set_up: rows, frames and the nominal arm.
-        state: the fitted values.
-        free: (P,) which parameters were fitted.
-        weights: (N,) of the rows; all 1 without the robust option.
-        covariance: (free, free) of the fitted parameters, in their units; base parameters as twists in base axes.
-        steps: Gauss-Newton steps made.
-        reason: why the fit stopped.
-        suspects: (N,) rows that look like bad shots: beyond six times the spread.
-        ids: (N,) the rows' ids, "run: id".
-        notes: what was decided: orientations used or left out, tools free per run.
-        doubts: why the result should not be used; empty if all is well.
-        held: parameters of the level that stay nominal, since the poses cannot tell them from others, and from which.
-        misses: in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for.
-    """
-
-    level: Level
-    set_up: SetUp
-    state: State
-    free: NDArray[np.bool_]
-    weights: Array
-    covariance: Array
-    steps: int
-    reason: str
-    suspects: NDArray[np.bool_]
-    ids: NDArray[np.str_]
-    notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
-    held: tuple[Confounded, ...] = ()
-    misses: pd.DataFrame | None = None
-
-    @functools.cached_property
-    def arm(self) -> Arm:
-        """The corrected arm with the nominal tool; the fitted tools stand in `state.tools`."""
-        return self.set_up.frames(self.state)[0]
-
-    @functools.cached_property
-    def residuals(self) -> Array:
-        """(N, 3) measured minus predicted, measurement frame, m."""
-        return self.set_up.residuals(self.state)
-
-    @property
-    def rms_distance(self) -> float:
-        """Root mean square of the 3D distance over the rows, m."""
-        return rms_distance(self.residuals)
-
-    @property
-    def table(self) -> pd.DataFrame:
-        """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr, nominal.
-
-        Base frames: position and rotation vector, their standard errors along and about the base's own axes. Nominal
-        values stand beside D-H constants and tool points.
-        """
-        base = np.concatenate([self.state.translations, Rotation.from_matrix(self.state.rotations).as_rotvec()], axis=1)
-        turns = Rotation.from_matrix(self.state.tool_rotations).as_rotvec()
-        state, rows = self.state, self.set_up
-        values = np.concatenate([base.ravel(), state.tools.ravel(), state.constants, state.compliances, turns.ravel()])
-        nominal = np.full(len(values), np.nan)
-        tools = slice(base.size, base.size + state.tools.size)
-        nominal[tools] = np.tile(rows.arm.tool, len(rows.tool_names))
-        nominal[tools.stop : tools.stop + len(rows.constants)] = nominal_values(rows.arm, rows.constants)
-        return pd.DataFrame(
-            {
-                "parameter": np.array(rows.names)[self.free],
-                "unit": np.array(rows.units)[self.free],
-                "value": values[self.free],
-                "stderr": np.sqrt(np.diag(self.covariance)),
-                "nominal": nominal[self.free],
-            }
-        )
-
-    @property
-    def held_table(self) -> pd.DataFrame:
-        """One row per parameter held: parameter, imitated_by (joined by " + "), share_left of what it does."""
-        return pd.DataFrame(
-            [(each.name, " + ".join(each.partners), each.left) for each in self.held],
-            columns=["parameter", "imitated_by", "share_left"],
-        )
-
-    @property
-    def covariance_table(self) -> pd.DataFrame:
-        """Covariance of the fitted parameters, in products of their units: parameter, and one column of each."""
-        names = np.array(self.set_up.names)[self.free]
-        return pd.DataFrame(self.covariance, columns=names).assign(parameter=names)[["parameter", *names]]
-
-    def text(self) -> str:
-        """The calibration in words, lengths in mm and angles in mrad."""
-        return in_words(self)
 
 
 # so many parameters: each is a choice of its own that a user makes by name, and all have a default

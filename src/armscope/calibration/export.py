@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration.calibrate import Calibration
+from armscope.calibration.result import Calibration
 from armscope.core.files import write_text, write_yaml
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration.model import GRAVITY, Level, SetUp
+from armscope.calibration.result import SHOWN
 from armscope.calibration.solve import Solved
-from armscope.calibration.summary_text import SHOWN
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import UNSETTLED

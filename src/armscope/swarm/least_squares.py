@@ -1,79 +1,21 @@
-"""Swarms on linear least squares: the fitness of a coefficient vector in a few multiplications, whatever the rows.
-
-With the design matrix A = Q R of N rows, |A z - y|^2 = |R z - Q'y|^2 + (what no z can explain), so that
-
-    fitness(z) = RMS residual = sqrt( (|R z - Q'y|^2 + rest) / N ),
-
-the same function with the triangular factor in place of the rows. Where numba is installed, a compiled kernel runs the
-same algorithm on the same random numbers as the NumPy engine.
-"""
+"""Swarms on linear least squares: where numba is installed, compiled, with the NumPy engine's random numbers."""
 
 from __future__ import annotations
 
 import importlib.util
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from armscope.core.types import Array, Indices
 from armscope.swarm.engine import checked_box, minimise
+from armscope.swarm.least_squares_objective import LeastSquares
 from armscope.swarm.result import SwarmResult
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import are_sfc64
 
 ENGINES = ("auto", "numba", "numpy")
-
-
-@dataclass(frozen=True)
-class LeastSquares:
-    """S least-squares problems in D coefficients, as an objective: fitness = sqrt(|R z - b|^2 + rest).
-
-    Attributes:
-        factors: the different upper triangular factors R / sqrt(N), M x D x D.
-        factor_of: which of them each swarm uses, S.
-        targets: b = Q'y / sqrt(N), S x D.
-        rests: the mean square that no coefficients can explain, S.
-    """
-
-    factors: Array
-    factor_of: Indices
-    targets: Array
-    rests: Array
-
-    def __post_init__(self) -> None:
-        swarms, dimensions = self.targets.shape
-        if self.factors.shape[1:] != (dimensions, dimensions) or np.any(np.tril(self.factors, -1)):
-            raise ValueError(
-                f"factors of shape {self.factors.shape}: must be upper triangular, M x D x D, D = {dimensions}"
-            )
-        if self.factor_of.shape != (swarms,) or self.rests.shape != (swarms,):
-            raise ValueError(f"factor_of and rests must have one value for each of the {swarms} swarms")
-        if not np.isin(self.factor_of, np.arange(len(self.factors))).all():
-            raise ValueError(f"factor_of = {self.factor_of!r}: must lie between 0 and {len(self.factors) - 1}")
-
-    @cached_property
-    def is_orthonormal(self) -> bool:
-        """Whether every factor is the identity, as on an orthonormal (QR) basis."""
-        return bool(np.array_equal(self.factors, np.broadcast_to(np.eye(self.factors.shape[1]), self.factors.shape)))
-
-    def __call__(self, positions: Array, swarms: Indices, /) -> Array:
-        """The fitness of ``positions`` (n x particles x D) for the swarms numbered ``swarms``."""
-        return np.sqrt(self.mean_squares(positions, swarms))
-
-    def mean_squares(self, positions: Array, swarms: Indices, /) -> Array:
-        """The squares of the fitness; for a swarm, which only compares, as good as the fitness and cheaper."""
-        if self.is_orthonormal:
-            gaps = positions - self.targets[swarms, None, :]
-        else:
-            # one product per swarm, of the same shape whatever the chunk: the bits do not depend on the chunk
-            gaps = np.matmul(positions, self.factors[self.factor_of[swarms]].transpose(0, 2, 1))
-            gaps -= self.targets[swarms, None, :]
-        squares = np.einsum("spd,spd->sp", gaps, gaps)
-        squares += self.rests[swarms, None]
-        return np.asarray(squares)
 
 
 def minimise_least_squares(

@@ -1,0 +1,165 @@
+"""What a calibration found: constants with covariance, frames, held-out errors, and all of it in words."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from armscope.calibration.by_run import ALL
+from armscope.calibration.confounding import Confounded
+from armscope.calibration.geometry import nominal_values
+from armscope.calibration.model import Level, SetUp
+from armscope.calibration.state import State
+from armscope.core.averages import rms_distance
+from armscope.core.types import Array
+from armscope.robot import Arm
+
+SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
+"""Factor and unit for reading."""
+MOST_SUSPECTS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """A calibrated arm.
+
+    Attributes:
+        level: what was free beyond base and tool.
+        set_up: rows, frames and the nominal arm.
+        state: the fitted values.
+        free: (P,) which parameters were fitted.
+        weights: (N,) of the rows; all 1 without the robust option.
+        covariance: (free, free) of the fitted parameters, in their units; base parameters as twists in base axes.
+        steps: Gauss-Newton steps made.
+        reason: why the fit stopped.
+        suspects: (N,) rows that look like bad shots: beyond six times the spread.
+        ids: (N,) the rows' ids, "run: id".
+        notes: what was decided: orientations used or left out, tools free per run.
+        doubts: why the result should not be used; empty if all is well.
+        held: parameters of the level that stay nominal, since the poses cannot tell them from others, and from which.
+        misses: in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for.
+    """
+
+    level: Level
+    set_up: SetUp
+    state: State
+    free: NDArray[np.bool_]
+    weights: Array
+    covariance: Array
+    steps: int
+    reason: str
+    suspects: NDArray[np.bool_]
+    ids: NDArray[np.str_]
+    notes: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
+    held: tuple[Confounded, ...] = ()
+    misses: pd.DataFrame | None = None
+
+    @functools.cached_property
+    def arm(self) -> Arm:
+        """The corrected arm with the nominal tool; the fitted tools stand in `state.tools`."""
+        return self.set_up.frames(self.state)[0]
+
+    @functools.cached_property
+    def residuals(self) -> Array:
+        """(N, 3) measured minus predicted, measurement frame, m."""
+        return self.set_up.residuals(self.state)
+
+    @property
+    def rms_distance(self) -> float:
+        """Root mean square of the 3D distance over the rows, m."""
+        return rms_distance(self.residuals)
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr, nominal.
+
+        Base frames: position and rotation vector, their standard errors along and about the base's own axes. Nominal
+        values stand beside D-H constants and tool points.
+        """
+        base = np.concatenate([self.state.translations, Rotation.from_matrix(self.state.rotations).as_rotvec()], axis=1)
+        turns = Rotation.from_matrix(self.state.tool_rotations).as_rotvec()
+        state, rows = self.state, self.set_up
+        values = np.concatenate([base.ravel(), state.tools.ravel(), state.constants, state.compliances, turns.ravel()])
+        nominal = np.full(len(values), np.nan)
+        tools = slice(base.size, base.size + state.tools.size)
+        nominal[tools] = np.tile(rows.arm.tool, len(rows.tool_names))
+        nominal[tools.stop : tools.stop + len(rows.constants)] = nominal_values(rows.arm, rows.constants)
+        return pd.DataFrame(
+            {
+                "parameter": np.array(rows.names)[self.free],
+                "unit": np.array(rows.units)[self.free],
+                "value": values[self.free],
+                "stderr": np.sqrt(np.diag(self.covariance)),
+                "nominal": nominal[self.free],
+            }
+        )
+
+    @property
+    def held_table(self) -> pd.DataFrame:
+        """One row per parameter held: parameter, imitated_by (joined by " + "), share_left of what it does."""
+        return pd.DataFrame(
+            [(each.name, " + ".join(each.partners), each.left) for each in self.held],
+            columns=["parameter", "imitated_by", "share_left"],
+        )
+
+    @property
+    def covariance_table(self) -> pd.DataFrame:
+        """Covariance of the fitted parameters, in products of their units: parameter, and one column of each."""
+        names = np.array(self.set_up.names)[self.free]
+        return pd.DataFrame(self.covariance, columns=names).assign(parameter=names)[["parameter", *names]]
+
+    def text(self) -> str:
+        """The calibration in words, lengths in mm and angles in mrad."""
+        return in_words(self)
+
+
+def in_words(calibration: Calibration) -> str:
+    """Lengths in mm, angles in mrad, compliances in µrad/(N m); what D-H constants become as in robot.yaml."""
+    arm = calibration.set_up.arm
+    rows, parameters = len(calibration.set_up), int(calibration.free.sum())
+    lines = [f"{arm.name}: {calibration.level} calibration on {rows} rows, {parameters} parameters"]
+    lines += _misses(calibration)
+    if arm.description.urdf is not None and arm.description.actuation is None:
+        motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
+        lines.append(f"motors: {motors}")
+    lines += calibration.notes
+    lines += [f"doubtful: {doubt}" for doubt in calibration.doubts]
+    if len(suspects := calibration.ids[calibration.suspects]):
+        more = ", ..." if len(suspects) > MOST_SUSPECTS else ""
+        lines.append(f"{len(suspects)} rows look like bad shots: {', '.join(suspects[:MOST_SUSPECTS])}{more}")
+    lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
+    lines += [_parameter(*row) for row in calibration.table.itertuples(index=False)]
+    if calibration.held:
+        lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
+        lines += [f"  {each.text()}" for each in calibration.held]
+    return "\n".join(lines)
+
+
+def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float) -> str:
+    factor, shown = SHOWN[unit]
+    beside = ""
+    if not np.isnan(nominal):
+        beside = f"  (nominal {nominal * factor:.6g} {shown})"
+        if name.startswith("joint "):  # the value is a change
+            after = nominal + value
+            becomes = f"{np.degrees(after):.5g} deg" if unit == "rad" else f"{1e3 * after:.6g} mm"
+            beside = f"  (becomes {becomes})"
+    return f"  {name:<28} {value * factor:12.5g} +- {stderr * factor:.2g} {shown}{beside}"
+
+
+def _misses(calibration: Calibration) -> list[str]:
+    stopped = f"after {calibration.steps} steps; {calibration.reason}"
+    if calibration.misses is None:
+        return [f"RMS of the 3D distance {calibration.rms_distance * 1e3:.4g} mm {stopped}"]
+    lines = []
+    for run, _, inside, held, spread, alone in calibration.misses.itertuples(index=False):
+        where = "RMS of the 3D distance" if run == ALL else f"  run {run}:"
+        outside = f"held out {held:.4g} +- {spread:.2g} mm (base and tool alone {alone:.4g} mm)"
+        lines.append(f"{where} {inside:.4g} mm on the rows fitted, {outside if np.isfinite(held) else 'none held out'}")
+    return [*lines, stopped]
