@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from armscope.core.types import Array
 from armscope.world.motion.limits import Numbers
-
-if TYPE_CHECKING:
-    from armscope.world.motion.kinds import Stage
+from armscope.world.motion.stage import Stage
 
 ROUNDS = 2
 """Each takes up one more power of (frequency of the motion / that of the link on its drive)^2, a twentieth or less."""

@@ -8,10 +8,8 @@ motor's, positive along the joint's angle; friction that is positive resists.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,33 +28,11 @@ from armscope.world.motion.limits import (
 )
 from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
+from armscope.world.motion.stage import PlainArm, Stage, sign
 
-if TYPE_CHECKING:
-    from armscope.world.motion.virtual_arm import VirtualArm
-
-STANDSTILL = 2e-3
-"""rad/s: below it the sign of a speed counts as a share only, as in `STIFF_FRICTION`."""
 Changes = Callable[[Dynamics, Location, Numbers], Dynamics]
-Pulls = Callable[["Stage", int, Numbers], Array]
+Pulls = Callable[[Stage, int, Numbers], Array]
 Records = Callable[[Session, Array, int, Numbers], Array]
-
-
-@dataclass(frozen=True, eq=False)
-class Stage:
-    """What laws of friction see: the motion, and what gives (T, n) torques of the links alone for a motion, N m."""
-
-    session: Session
-    links: Callable[[Session], Array]
-
-    @functools.cached_property
-    def load(self) -> Array:
-        """(T, n) torques of the links alone, N m."""
-        return self.links(self.session)
-
-
-def sign(session: Session, joint: int) -> Array:
-    """(T,) of a joint's speed."""
-    return np.tanh(session.speed[:, joint] / STANDSTILL)
 
 
 @dataclass(frozen=True)
@@ -92,7 +68,7 @@ class Kind:
     needs: tuple[str, ...] = ()
     stated: bool = False
     shape: str = ""
-    possible: Callable[[VirtualArm, int, Numbers], bool] | None = None
+    possible: Callable[[PlainArm, int, Numbers], bool] | None = None
 
     @property
     def outside(self) -> bool:

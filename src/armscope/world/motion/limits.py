@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import MovingArm
-
-if TYPE_CHECKING:
-    from armscope.world.motion.virtual_arm import VirtualArm
+from armscope.world.motion.stage import PlainArm
 
 Numbers = Mapping[str, float]
 POSES_APART = 500
@@ -24,7 +21,7 @@ SLOWEST_SWING_HZ = 2.0
 """A link that swings on its own drive more slowly is not driven along paths of seconds."""
 
 
-def holds_its_link(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+def holds_its_link(arm: PlainArm, joint: int, numbers: Numbers) -> bool:
     """Whether a drive that gives way is stiff enough to be driven, in every pose of the motion.
 
     Args:
@@ -43,7 +40,7 @@ def holds_its_link(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
     return bool(numbers["compliance"] * inertia.max() * (2 * np.pi * SLOWEST_SWING_HZ) ** 2 < 1)
 
 
-def mass_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
+def mass_may_be(arm: PlainArm, link: int, numbers: Numbers) -> bool:
     """Whether a link keeps a mass, not far from the drawing's.
 
     Args:
@@ -57,7 +54,7 @@ def mass_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
     return bool(abs(numbers["mass"]) < WRONG_MASS * arm.dynamics.mass[link])
 
 
-def centre_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
+def centre_may_be(arm: PlainArm, link: int, numbers: Numbers) -> bool:
     """Whether a link's centre of mass is not far from the drawing's.
 
     Args:
@@ -72,7 +69,7 @@ def centre_may_be(arm: VirtualArm, link: int, numbers: Numbers) -> bool:
     return bool(moved < WRONG_CENTRE * Geometry(arm.description).rows[:, [0, 2]].max())
 
 
-def resists_when_warm(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+def resists_when_warm(arm: PlainArm, joint: int, numbers: Numbers) -> bool:
     """Whether friction resists at the warmest.
 
     Args:
@@ -87,7 +84,7 @@ def resists_when_warm(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
     return bool(arm.dynamics.viscous[joint] + numbers["per_kelvin"] * warmest > 0)
 
 
-def resists_either_way(arm: VirtualArm, joint: int, numbers: Numbers) -> bool:
+def resists_either_way(arm: PlainArm, joint: int, numbers: Numbers) -> bool:
     """Whether friction resists in both directions.
 
     Args:

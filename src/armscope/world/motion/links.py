@@ -14,10 +14,11 @@ from armscope.core.types import Array, Indices
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import joints
 from armscope.world.motion.drives import behind_its_drive, wound_up
-from armscope.world.motion.kinds import Kind, Stage, loaded_joints
+from armscope.world.motion.kinds import Kind, loaded_joints
 from armscope.world.motion.limits import Numbers, holds_its_link
 from armscope.world.motion.recording import ENCODER_STEPS
 from armscope.world.motion.session import GRID_HZ, Session
+from armscope.world.motion.stage import Stage
 from armscope.world.rivals import Rival
 
 NOISE_RAD = 2e-5

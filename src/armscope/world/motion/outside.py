@@ -6,9 +6,10 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.world.kinds import joints
-from armscope.world.motion.kinds import Kind, Stage, sign
+from armscope.world.motion.kinds import Kind
 from armscope.world.motion.limits import Numbers
 from armscope.world.motion.session import GRID_HZ, Session
+from armscope.world.motion.stage import Stage, sign
 
 
 def _hysteresis(stage: Stage, joint: int, numbers: Numbers) -> Array:

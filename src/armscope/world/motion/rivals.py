@@ -15,12 +15,12 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.world.kinds import joints
 from armscope.world.layout import Geometry
-from armscope.world.motion.kinds import Stage, sign
 from armscope.world.motion.links import NOISE_RAD, link_rivals
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.recording import independent_share
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
-from armscope.world.motion.virtual_arm import Sized, VirtualArm, stage_of
+from armscope.world.motion.stage import Stage, sign, stage_of
+from armscope.world.motion.virtual_arm import Sized, VirtualArm
 from armscope.world.rivals import ALTERNATIVE_NATS, Alternative, Rival
 
 MOST_SAMPLES = 600

@@ -8,12 +8,12 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.robot.description import RobotDescription
 from armscope.world.layout import Geometry
-from armscope.world.motion.kinds import Concealed, Kind, Stage, sign
+from armscope.world.motion.kinds import Concealed, Kind
 from armscope.world.motion.links import NOISE_RAD
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.session import Session
+from armscope.world.motion.stage import PlainArm, sign, stage_of
 
 CLOSE = 0.01
 """Sizes are reached to within this share."""
@@ -25,41 +25,12 @@ TOO_SMALL = 1e-9
 """What background friction absorbs has no size."""
 
 
-def stage_of(geometry: Geometry, dynamics: Dynamics, session: Session) -> Stage:
-    """What laws see of a motion.
-
-    Args:
-        geometry, dynamics: of the arm.
-        session: the motion.
-
-    Returns:
-        The stage, with the torques of the links alone.
-    """
-    links = MovingArm(geometry, dynamics.without_friction())
-    return Stage(session, lambda motion: links.torques(motion.angle, motion.speed, motion.acceleration))
-
-
 class ImpossibleEffect(ValueError):
     """Nowhere on this arm can this be as large as asked for without being absurd."""
 
 
-@dataclass(frozen=True, eq=False)
-class VirtualArm:
-    """An arm with its ordinary friction, before anything is concealed.
-
-    Attributes:
-        description: what robot.yaml says (all of it).
-        dynamics: as it is.
-        session: its motions.
-        sigma: (n,) noise of the recorded torques, N m.
-        stated: whether robot.yaml states friction and rotor inertia; else they are found, and absorb what is like them.
-    """
-
-    description: RobotDescription
-    dynamics: Dynamics
-    session: Session
-    sigma: Array
-    stated: bool
+class VirtualArm(PlainArm):
+    """An arm that can conceal things: what its drives and encoders then say, and how much of that stands out."""
 
     def torques(self, concealed: list[Concealed], session: Session | None = None) -> Array:
         """(T, n) what the drives would record without noise, N m.
