@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from armscope.cli.commands import Commands, Output
-from armscope.cli.studies import read_seed, worlds_in
+from armscope.cli.studies import read_seed, size_of, worlds_in
 from armscope.core.inputs import folder_of
 
 app = Commands("proof motion", no_args_is_help=True)
@@ -23,7 +23,6 @@ def worlds(
     size: Annotated[str, typer.Option(help="small or full")] = "small",
 ) -> None:
     """Make moving worlds: motions with concealed causes, and the truth in an archive of its own."""
-    from armscope.cli.proof import size_of
     from armscope.proof.motion.making import make
 
     seed = read_seed(seed_file)["proof_seed"]

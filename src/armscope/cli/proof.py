@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
 from armscope.cli import motion_proof
 from armscope.cli.commands import Commands, Output
-from armscope.cli.studies import every_nth, read_seed, worlds_in
-from armscope.core.inputs import InputError, folder_of, nearest
+from armscope.cli.studies import every_nth, read_seed, size_of, worlds_in
+from armscope.core.inputs import InputError, folder_of
 
 app = Commands("proof", no_args_is_help=True)
 app.add_typer(motion_proof.app, name="motion", help="The same for arms in motion.")
@@ -116,16 +116,3 @@ def _scored(tables: Path) -> Path:
 
     read_table(folder_of(tables, "the proof's tables") / "aims.csv", what="a table of `armscope proof score`")
     return tables
-
-
-def size_of(text: str) -> Literal["small", "full"]:
-    """Which proof.
-
-    Raises:
-        InputError: neither small nor full.
-    """
-    if text == "small":
-        return "small"
-    if text == "full":
-        return "full"
-    raise InputError("--size", "", text, "a proof is small or full", nearest(text, ("small", "full")))

@@ -6,11 +6,11 @@ import gzip
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from armscope.core.inputs import InputError, Model, folder_of, validate
+from armscope.core.inputs import InputError, Model, folder_of, nearest, validate
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -174,3 +174,16 @@ def model_named(name: str) -> ModelSpec:
     if name not in by_name:
         raise InputError("--model", "", name, "no model of that name", nearest(name, by_name))
     return by_name[name]
+
+
+def size_of(text: str) -> Literal["small", "full"]:
+    """Which proof.
+
+    Raises:
+        InputError: neither small nor full.
+    """
+    if text == "small":
+        return "small"
+    if text == "full":
+        return "full"
+    raise InputError("--size", "", text, "a proof is small or full", nearest(text, ("small", "full")))
