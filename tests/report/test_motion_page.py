@@ -20,7 +20,7 @@ from armscope.cli import app
 from armscope.core.types import Array
 from armscope.inference.evidence import evaluate
 from armscope.motion.export import write_motion
-from armscope.motion.fitting.selection import coefficients_of
+from armscope.motion.fitting.selected import coefficients_of
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.summary.holding_out import folds
 from armscope.report.figures.motion import draw_friction, draw_trace

@@ -15,7 +15,7 @@ import pinocchio as pin
 from armscope.core.files import write_table, write_text
 from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.layout import OWN
 from armscope.motion.model.file import save_motion_model
 from armscope.motion.model.fitted import MotionModel

@@ -14,7 +14,8 @@ from armscope.motion.check import check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
-from armscope.motion.fitting.selection import SelectedCauses, model_so_far, select_causes
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import model_so_far, select_causes
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in

@@ -6,7 +6,8 @@ import pytest
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.refining import refined
-from armscope.motion.fitting.selection import SelectedCauses, select_causes
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.torque_delay import Between
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import TorqueLayout

@@ -21,7 +21,8 @@ from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.model import file as model_file
 from armscope.motion.model.file import load_motion_model, save_motion_model
 from armscope.motion.model.file_check import CauseReader
-from armscope.motion.model.fitted import FittedCause, MotionModel, fitted_model, predicted_torque
+from armscope.motion.model.fitted import MotionModel, fitted_model, predicted_torque
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.predicting import torque_of_rows
 from armscope.motion.samples.preparation import preparation

@@ -7,7 +7,8 @@ import numpy as np
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
 from armscope.motion.library.laws import Law
-from armscope.motion.model.fitted import FittedCause, MotionModel
+from armscope.motion.model.fitted import MotionModel
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
 from armscope.motion.samples.preparation import preparation
 from tests.motion.moving import COULOMB, VISCOUS, robot

@@ -5,7 +5,8 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.selection import SelectedCauses, select_causes
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import select_causes
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in

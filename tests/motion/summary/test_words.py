@@ -121,4 +121,4 @@ def test_a_torque_of_the_other_sign_has_no_factor_and_a_tilt_found_by_a_curve_no
     reversed_ = Parameter("gain", "", -1.2, 0.01)
     for remedy, kind in ((by_factor, catalogue.GAIN), (gravity_vector, catalogue.GRAVITY)):
         assert kind.remedy is remedy
-        assert remedy(Fitted(placed_at(kind, reversed_), (reversed_,), robot())) == kind.cure
+        assert remedy(Fitted(kind.cure, (reversed_,), robot())) == kind.cure

@@ -12,7 +12,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
 from armscope.motion.constants import CONSISTENCY
-from armscope.motion.fitting.selection import SelectedCauses, coefficients_of
+from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 
 PARTS = "fifths of the motion"
 """What blocks of a single run are; `NOISE.blocks_of_time` of them."""

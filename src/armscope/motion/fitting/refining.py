@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from armscope.motion.constants import LIBRARY, NOISE
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.masses import at_its_place
-
-if TYPE_CHECKING:
-    from armscope.motion.fitting.selection import SelectedCauses
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,59 +18,18 @@ from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.refining import refined
 from armscope.motion.fitting.rows import MotionRows, build_rows
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.fitting.torque_delay import Between
-from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_apart, left_elsewhere, weighed
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_apart, weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import follows_motion
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
-
-
-@dataclass(frozen=True, eq=False)
-class SelectedCauses:
-    """A finished selection.
-
-    Attributes:
-        rows, weights: the rows, and how much they count.
-        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
-        space, problem, best: what competed, on which sums, and what won.
-    """
-
-    rows: MotionRows
-    weights: TorqueWeights
-    block: Indices
-    blocks: list[NormalEquations]
-    by_joint: list[list[JointSums]]
-    space: ModelSpace
-    problem: Problem
-    best: Hypothesis
-
-    @property
-    def coefficients(self) -> Array:
-        """(p,) of all columns, SI."""
-        return coefficients_of(self.problem, self.best)
-
-    @property
-    def residuals(self) -> Array:
-        """(K, m) N m that the model leaves."""
-        return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
-
-    @property
-    def noise(self) -> TorqueWeights:
-        """How much rows count by what the model leaves of them, as part of the fit and apart from it."""
-        blocks = dict(enumerate(self.blocks))
-        apart = left_elsewhere(self.rows, self.block, blocks, self.problem, self.best) if len(blocks) > 1 else None
-        return estimate_weights(self.rows, self.residuals, apart)
-
-
-def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
-    """(p,) posterior means, SI."""
-    return np.asarray(hypothesis.coefficients(len(problem.scale)) / problem.scale)
 
 
 def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:

@@ -9,8 +9,6 @@ free within its prior).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
@@ -18,11 +16,9 @@ from scipy.interpolate import CubicSpline
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.rows import MotionRows
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.layout import OWN
 from armscope.motion.samples.constants import FILTER
-
-if TYPE_CHECKING:
-    from armscope.motion.fitting.selection import SelectedCauses
 
 
 def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:

@@ -9,22 +9,19 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.motion.samples.constants import CUTOFF, FILTER
+from armscope.motion.library.clauses import Clause
+from armscope.motion.library.dry_friction import DryFriction
+from armscope.motion.library.remedies import Remedy
+from armscope.motion.samples.constants import CUTOFF
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import UNKNOWN
-
-if TYPE_CHECKING:
-    from armscope.motion.library.clauses import Clause
-    from armscope.motion.library.dry_friction import DryFriction
-    from armscope.motion.library.remedies import Remedy
 
 
 @dataclass(frozen=True)
@@ -195,29 +192,3 @@ class Seen:
     def torque(self, joint: int) -> str:
         """Unit of a motor's torque."""
         return "N" if self.arm.sliding[joint] else "N m"
-
-
-def side(signals: Signals, width: Array) -> Array:
-    """(N, m) side of the motion, -1 ... 1, as the mean over each sample's time.
-
-    tanh(speed / width), integrated over a sample in which the acceleration stays: where a joint turns back it crosses
-    the width within less than a sample, and where it did so is what the torque holds.
-    """
-    low, high = signals.dq - signals.ddq * signals.period / 2, signals.dq + signals.ddq * signals.period / 2
-    across = np.abs(high - low) > FILTER.alike * width
-    mean = (_log_cosh(high / width) - _log_cosh(low / width)) * width / np.where(across, high - low, 1.0)
-    return np.asarray(np.where(across, mean, np.tanh(signals.dq / width)))
-
-
-def _log_cosh(x: Array) -> Array:
-    return np.asarray(np.abs(x) + np.log1p(np.exp(-2 * np.abs(x))))
-
-
-def sharp_width(arm: MovingArm) -> Array:
-    """(m,) the least of that speed."""
-    return coulomb_width(arm) / FILTER.sharper
-
-
-def coulomb_width(arm: MovingArm) -> Array:
-    """(m,) largest speed within which friction changes sides, rad/s or m/s."""
-    return np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.library.causes import coulomb_width, sharp_width, side
+from armscope.motion.library.sides import coulomb_width, sharp_width, side
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.dynamics import MovingArm
 

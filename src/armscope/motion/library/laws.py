@@ -12,8 +12,9 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.library.causes import Moment, side
+from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import seen_later
+from armscope.motion.library.sides import side
 from armscope.motion.samples.preparation import without_lag
 
 

@@ -12,9 +12,10 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
-from armscope.motion.library.causes import Cause, PlacedCause, Seen, coulomb_width, sharp_width
+from armscope.motion.library.causes import Cause, PlacedCause, Seen
 from armscope.motion.library.laws import Law, nearest_to_powers
 from armscope.motion.library.masses import place_masses
+from armscope.motion.library.sides import coulomb_width, sharp_width
 
 
 def place_causes(seen: Seen) -> list[PlacedCause]:

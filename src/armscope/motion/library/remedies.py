@@ -10,9 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.clauses import Numbers, amount
-from armscope.motion.library.laws import Law
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import Parameter
 
@@ -21,17 +19,19 @@ _SAID = {"mx": "mass × x", "my": "mass × y", "mz": "mass × z"}
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """A cause at its place with its numbers.
+    """What a cure is made of: the cause's words and its numbers.
 
     Attributes:
-        placed: the cause.
+        cure: the cause's own sentence.
         parameters: as fitted.
         arm: as stated.
+        of_law: numbers of the law that it follows; none where it follows none.
     """
 
-    placed: PlacedCause
+    cure: str
     parameters: tuple[Parameter, ...]
     arm: MovingArm
+    of_law: tuple[float, ...] = ()
 
     @property
     def first(self) -> Parameter:
@@ -46,7 +46,7 @@ class Fitted:
     @property
     def in_general(self) -> str:
         """The cure without a number, and without its full stop."""
-        return self.placed.cause.cure.removesuffix(".")
+        return self.cure.removesuffix(".")
 
 
 Remedy = Callable[[Fitted], str]
@@ -67,7 +67,7 @@ def each_direction(fitted: Fitted) -> str:
 def by_factor(fitted: Fitted) -> str:
     """A torque constant, and with it the recorded torque."""
     if fitted.first.value <= -1:
-        return fitted.placed.cause.cure
+        return fitted.cure
     factor = 1 / (1 + fitted.first.value)
     return f"Multiply the joint's torque constant, and so the recorded torque, by {factor:.3f}."
 
@@ -108,9 +108,8 @@ def as_stated_and(fitted: Fitted) -> str:
 
 def gravity_vector(fitted: Fitted) -> str:
     """The direction in which gravity pulls."""
-    columns = fitted.placed.columns
-    if not isinstance(columns, Law):
-        return fitted.placed.cause.cure
-    leans = np.array(columns.numbers).reshape(-1, 3)
+    if not fitted.of_law:
+        return fitted.cure
+    leans = np.array(fitted.of_law).reshape(-1, 3)
     found = fitted.arm.model.gravity.linear + np.array([each.value for each in fitted.parameters]) @ leans
     return f"Set gravity_m_s2 to [{', '.join(f'{each:.3f}' for each in found)}], or level the base."

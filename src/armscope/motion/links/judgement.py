@@ -14,11 +14,12 @@ from armscope.inference.search import Search
 from armscope.inference.shapley import shares
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement_of
-from armscope.motion.fitting.selection import SelectedCauses, model_so_far
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import model_so_far
 from armscope.motion.library.causes import PlacedCause, Seen
 from armscope.motion.library.twist_catalogue import ELASTICITY, NAMELESS
 from armscope.motion.links.twist import SelectedTwist, select_twists, twist_rows
-from armscope.motion.model.fitted import FittedCause
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
 from armscope.motion.summary.doubts import swing_of, too_loose

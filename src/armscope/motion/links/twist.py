@@ -23,7 +23,8 @@ from armscope.inference.search import Search
 from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.consistency import agreement_of
-from armscope.motion.fitting.selection import blocks_of, coefficients_of
+from armscope.motion.fitting.selected import coefficients_of
+from armscope.motion.fitting.selection import blocks_of
 from armscope.motion.fitting.so_far import SoFar
 from armscope.motion.fitting.weights import autocorrelation_time
 from armscope.motion.library.causes import Moment, PlacedCause, Seen

@@ -26,7 +26,8 @@ from armscope.motion.model.file_contents import (
     PreparationFile,
     ScannedFile,
 )
-from armscope.motion.model.fitted import FittedCause, MotionModel
+from armscope.motion.model.fitted import MotionModel
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Preparation
 from armscope.robot.dynamics import PARAMETERS, build_moving_arm
 

@@ -14,7 +14,7 @@ from armscope.motion.library.causes import Moment, PlacedCause
 from armscope.motion.library.laws import LAWS, Law
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.motion.model.file_contents import CauseFile, LawFile
-from armscope.motion.model.fitted import FittedCause
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import PARAMETERS, MovingArm

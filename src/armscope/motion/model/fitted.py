@@ -12,30 +12,17 @@ from armscope.core.types import Array
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.so_far import SoFar
 from armscope.motion.library import catalogue
-from armscope.motion.library.causes import Moment, PlacedCause
+from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.model.link_motion import beside_motor, following, moment_of_links
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
-
-
-@dataclass(frozen=True, eq=False)
-class FittedCause:
-    """A placed cause with the values (c,) of its parameters, SI, and their covariance (c, c)."""
-
-    placed: PlacedCause
-    values: Array
-    covariance: Array
-
-    @property
-    def stderr(self) -> Array:
-        """(c,) standard errors."""
-        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,12 +13,10 @@ from armscope.motion.library.causes import Moment
 from armscope.motion.library.laws import derived
 from armscope.motion.library.twist_catalogue import ENCODER_OFFSET
 from armscope.motion.library.twist_constants import TWIST
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
-
-if TYPE_CHECKING:
-    from armscope.motion.model.fitted import FittedCause
 
 
 def moment_of_links(arm: MovingArm, signals: Signals, model: SoFar, rate: float) -> Moment:

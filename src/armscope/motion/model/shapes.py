@@ -8,7 +8,8 @@ from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import own_columns
 from armscope.motion.library.laws import Law
-from armscope.motion.model.fitted import FittedCause, MotionModel
+from armscope.motion.model.fitted import MotionModel
+from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals
 
 OF_SPEED = ("absolute speed", "stribeck", "powers of speed", "curve over speed")

@@ -10,7 +10,7 @@ from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ToleranceFamily
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.constants import PRIOR
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.verdict.effects import Alternative

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.fitting.consistency import PARTS, PathAgreement
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import PLAUSIBLE

@@ -15,7 +15,8 @@ from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.rows import MotionRows
-from armscope.motion.fitting.selection import SelectedCauses, coefficients_of, gain_of
+from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
+from armscope.motion.fitting.selection import gain_of
 from armscope.motion.fitting.weights import noise_of, weighed
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.verdict import HeldOutMotion, Step, relative

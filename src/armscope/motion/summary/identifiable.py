@@ -7,7 +7,7 @@ import numpy as np
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.robot.dynamics import PARAMETERS
 from armscope.verdict.schema import Notice

@@ -21,7 +21,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.motion.constants import INTERVALS, PRIOR, TELLING
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout

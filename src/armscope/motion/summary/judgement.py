@@ -12,7 +12,7 @@ from armscope.core.types import Array
 from armscope.inference.shapley import shares
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead

@@ -18,7 +18,7 @@ from scipy.signal import lfilter
 from armscope.core.types import Array, Indices
 from armscope.inference.search import Search
 from armscope.motion.fitting.rows import MotionRows
-from armscope.motion.fitting.selection import SelectedCauses, coefficients_of
+from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import LASTING
 

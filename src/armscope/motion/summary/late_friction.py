@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.motion.constants import PRIOR
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.intervals import Sureness, level_of_gains

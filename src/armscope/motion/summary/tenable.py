@@ -17,7 +17,8 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import Weighed, agreement
-from armscope.motion.fitting.selection import SelectedCauses, at_own_gain, chosen
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import at_own_gain, chosen
 from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import is_of_a_gain

@@ -9,7 +9,7 @@ from scipy.stats import chi2
 from armscope.core.types import Array
 from armscope.inference.linear_algebra import rss_reduction
 from armscope.motion.constants import LIBRARY, TELLING
-from armscope.motion.fitting.selection import SelectedCauses
+from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.catalogue import UNEVEN
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN

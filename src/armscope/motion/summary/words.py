@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.clauses import rms_of
+from armscope.motion.library.laws import Law
 from armscope.motion.library.remedies import Fitted
 from armscope.motion.verdict import FoundCause
 from armscope.robot.dynamics import MovingArm
@@ -41,5 +42,6 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
     Returns:
         A sentence or two; the cause's own words where it is a curve or a wave, which model.yaml holds.
     """
-    remedy = placed.cause.remedy
-    return remedy(Fitted(placed, tuple(parameters), arm)) if remedy else placed.cause.cure
+    say, own = placed.cause.remedy, placed.cause.cure
+    of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
+    return say(Fitted(own, tuple(parameters), arm, of_law)) if say else own

@@ -1,0 +1,58 @@
+"""What a selection of causes ends with: rows, how much they count, what competed, and what won."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.types import Array, Indices
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import ModelSpace
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import Problem
+from armscope.motion.fitting.rows import MotionRows
+from armscope.motion.fitting.sums import JointSums
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_elsewhere
+
+
+@dataclass(frozen=True, eq=False)
+class SelectedCauses:
+    """A finished selection.
+
+    Attributes:
+        rows, weights: the rows, and how much they count.
+        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
+        space, problem, best: what competed, on which sums, and what won.
+    """
+
+    rows: MotionRows
+    weights: TorqueWeights
+    block: Indices
+    blocks: list[NormalEquations]
+    by_joint: list[list[JointSums]]
+    space: ModelSpace
+    problem: Problem
+    best: Hypothesis
+
+    @property
+    def coefficients(self) -> Array:
+        """(p,) of all columns, SI."""
+        return coefficients_of(self.problem, self.best)
+
+    @property
+    def residuals(self) -> Array:
+        """(K, m) N m that the model leaves."""
+        return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
+
+    @property
+    def noise(self) -> TorqueWeights:
+        """How much rows count by what the model leaves of them, as part of the fit and apart from it."""
+        blocks = dict(enumerate(self.blocks))
+        apart = left_elsewhere(self.rows, self.block, blocks, self.problem, self.best) if len(blocks) > 1 else None
+        return estimate_weights(self.rows, self.residuals, apart)
+
+
+def coefficients_of(problem: Problem, hypothesis: Hypothesis) -> Array:
+    """(p,) posterior means, SI."""
+    return np.asarray(hypothesis.coefficients(len(problem.scale)) / problem.scale)
