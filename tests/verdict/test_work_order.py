@@ -11,7 +11,7 @@ from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.effect import Part
 from armscope.physics.freeform import UNKNOWN
-from armscope.physics.registry import EFFECTS
+from armscope.physics.registry import EFFECTS, effect_named
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
 from armscope.report.pages.diagnosis import write_report
@@ -19,13 +19,14 @@ from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
-from armscope.verdict.effects import Parameter
+from armscope.verdict.effects import Alternative, Cause, Parameter
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut
 from armscope.verdict.tasks import angle, task_of
+from armscope.verdict.wording import effect_in_words
 from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
@@ -307,3 +308,68 @@ def test_commands_by_the_whole_model_stand_in_place_of_the_other_steps() -> None
     assert [task.instead for task in both.tasks] == [False, True]
     assert both.tasks[1].instruction.startswith("In place of the steps above, compensate")
     assert "never on top" in both.caution
+
+
+def test_a_cause_in_doubt_names_no_part_to_change_and_says_how_each_reading_shows_itself() -> None:
+    """An engineer must not take a bearing out because of the best of three readings."""
+    size = [Parameter("amplitude", "rad", 6e-3, 1e-3), Parameter("phase", "rad", 0.3, 0.1)]
+    rivals = (
+        Alternative("link_geometry", "link 6", "geometric", 1.5, "constant", 1.5),
+        Alternative("joint_offset", "joint 6", "geometric", 2.0, "constant", 2.0),
+    )
+    vague = verdicts.found(
+        "axis_wobble", "joint 5", *size,
+        named_as="region", title="geometric, around joints 5 and 6", alternatives=rivals,
+    )  # fmt: skip
+    case = verdicts.case(effects=(vague,))
+    model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+    task = task_of(model.scene(case.recordings), cause, vague)
+    assert (task.what, task.place, task.change, task.motion) == (
+        "The geometry differs from what was stated around joints 5 and 6", "around joints 5 and 6", "to be settled", "",
+    )  # fmt: skip
+    for name, reading in (("axis_wobble", vague), ("link_geometry", rivals[0]), ("joint_offset", rivals[1])):
+        known = effect_named(name)
+        assert known
+        assert f"or {effect_in_words(name, reading.location)}" in f"or {task.confirm}".replace("For ", "or ")
+        assert known.confirm[1:] in task.confirm
+    before, _, after = task.instruction.partition("If the axis of joint 5 tilts")
+    assert "bearing" not in before
+    assert "bearing" in after
+    assert "whichever it is" in task.cure
+    either = replace(vague, title="axis wobble at joint 5 or link geometry at link 6")
+    assert task_of(model.scene(case.recordings), cause, either).place == "joint 5 or link 6"
+
+
+def test_a_name_with_rivals_that_held_out_rows_do_not_exclude_says_what_else_it_could_be() -> None:
+    size, task = Parameter("offset", "rad", -2.4e-3, 5e-5), {}
+    for excluded in (False, True):
+        rival = Alternative("axis_wobble", "joint 4", "geometric", 7.3, "angle of joint 4", 7.3, excluded)
+        case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 5", size, alternatives=(rival,)),))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        task[excluded] = task_of(model.scene(case.recordings), cause, cause.effects[0])
+    assert task[True].unless == ""
+    assert task[False].unless.endswith("it could also be axis wobble at joint 4.")
+
+
+def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
+    """21 % of a real arm's error stood in its headline and in no step of its work order."""
+    zero = verdicts.found("joint_offset", "joint 2", Parameter("offset", "rad", 1e-3, 1e-5))
+    curves = [verdicts.unknown_curve(f"joint {n}", minor=True) for n in (3, 5)]
+    case = verdicts.case(effects=(zero, *curves))
+    worth = contributions(case.verdict)
+    large, some, noise = np.random.default_rng(0).normal(0, 1, (3, *worth.left.shape))
+    single = tuple(replace(worth.causes[0], effects=(each,), moved=0.25 * some) for each in curves)
+    worth = replace(
+        worth, causes=(replace(worth.causes[0], moved=large),), small={}, left=0.02 * noise,
+        smaller=replace(single[0], moved=0.5 * some), single=single,
+    )  # fmt: skip
+    told = Cause(
+        "unknown", "family", "arm", tuple(each.as_member for each in curves), False, True, 0.2, 0.01,
+        "something unexplained at joint 3 (also: joint 5)", cure_of_family("unknown", curves, everywhere=False),
+    )  # fmt: skip
+    tasks = work_order(replace(case.verdict, causes=(told,)), worth).tasks
+    assert [task.place for task in tasks] == ["joint 2", "joints 3 and 5"]
+    assert "commanded = wanted - curve" in tasks[1].instruction
+    assert tasks[1].then_mm == pytest.approx(rms(worth.left))
+    untold = work_order(replace(case.verdict, causes=(replace(told, share=0.01),)), worth).tasks
+    assert "joints 3 and 5" not in [task.place for task in untold]

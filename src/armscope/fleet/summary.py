@@ -43,7 +43,7 @@ def causes_of_arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> p
     rows: list[dict[str, Any]] = [
         {
             "arm": member.arm, "type": member.type, "date": member.date, "run": member.run,
-            "cause": f"{effect.effect} at {effect.location}", "title": effect.title,
+            "cause": effect.as_member, "title": effect.title,
             "rms_at_tool_mm": effect.rms_at_tool_mm, "share": effect.share, "minor": effect.minor,
         }
         for member in members if member.name in found
@@ -104,7 +104,7 @@ def learned_sizes(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd
     """
     keys = ["type", "cause", "parameter", "unit"]
     rows = [
-        (member.type, f"{effect.effect} at {effect.location}", each.name, each.unit, member.arm, each.value**2)
+        (member.type, effect.as_member, each.name, each.unit, member.arm, each.value**2)
         for member in members if member.name in found
         for effect in found[member.name].effects
         for each in effect.parameters if np.isfinite(each.value)

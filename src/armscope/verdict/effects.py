@@ -142,6 +142,11 @@ class FoundEffect:
             object.__setattr__(self, "description", self.curve.description)
 
     @property
+    def as_member(self) -> str:
+        """ "effect at location", as causes list their members."""
+        return f"{self.effect} at {self.location}"
+
+    @property
     def nameless(self) -> bool:
         """Whether no known physics explains it: it is known by what it follows alone."""
         return self.family == UNKNOWN

@@ -16,8 +16,9 @@ _CURES = {
     "the commands (`armscope compensate`); replace the worst gear.",
     "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again: what is fitted here "
     "describes this recording, not the arm.",
-    "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, compensate for the "
-    "fitted curves in the commands (`armscope compensate`).",
+    "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "
+    "curves (curves.csv) as correction tables, commanded = wanted - curve, or compensate for them in the commands "
+    "(`armscope compensate`).",
 }
 """What mends a family where it has several members or small errors everywhere."""
 

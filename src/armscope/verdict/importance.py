@@ -97,11 +97,11 @@ def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
 
 
 def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
-    members = [effect for effect in effects if f"{effect.effect} at {effect.location}" in cause.members]
+    members = [effect for effect in effects if effect.as_member in cause.members]
     everywhere = small if cause.everywhere else None
     return replace(
         cause,
-        members=tuple(f"{effect.effect} at {effect.location}" for effect in members),
+        members=tuple(effect.as_member for effect in members),
         minor=all(effect.minor for effect in members) and not cause.everywhere,
         share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
         text=cause_in_words(cause.family, members, everywhere),

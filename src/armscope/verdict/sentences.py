@@ -278,6 +278,13 @@ def _small(text: str) -> str:
 def _vague(effect: FoundEffect) -> str:
     """A region or a family, with the best single reading."""
     if " or " in effect.title:
+        return kind_and_place(effect)
+    return f"{kind_and_place(effect)}, most likely {effect_in_words(effect.effect, effect.location)}"
+
+
+def kind_and_place(effect: FoundEffect) -> str:
+    """What an unsettled cause is for sure, as a clause: one of two, or a kind of error in a region."""
+    if " or " in effect.title:
         return f"either {plain(effect.title)}"
     kinds = {
         "elastic": "something gives way under load",
@@ -288,5 +295,4 @@ def _vague(effect: FoundEffect) -> str:
         "unknown": "something follows no known physics",
     }
     _, _, where = effect.title.partition(", ")
-    what = kinds.get(effect.family, f"something {effect.family}")
-    return f"{what} {where or 'in the arm'}, most likely {effect_in_words(effect.effect, effect.location)}"
+    return f"{kinds.get(effect.family, f'something {effect.family}')} {where or 'in the arm'}"

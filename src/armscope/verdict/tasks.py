@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,12 +18,11 @@ from armscope.physics.scene import Scene
 from armscope.robot import Arm
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
+from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
-from armscope.verdict.sentences import exact_phrase, phrase
-from armscope.verdict.wording import capitalised, effect_in_words, enumerated, implausible, plain, read_parameter
+from armscope.verdict.sentences import phrase
+from armscope.verdict.wording import capitalised, implausible, read_parameter
 
-RIVALS = 2
-"""What else a cause could be, as told in a task: the nearest."""
 LEAST_TURN = 5e-5
 """Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
 STEADY = 0.02
@@ -40,6 +39,7 @@ class Task:
         motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
         instruction, cure: what to do; and the rule by which it is commanded away.
         confirm: how to confirm it first.
+        unless: what it could be if that does not confirm it; "" where nothing else is left.
         alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
         only_after: it pays only once all before it is done: alone it would make the error larger.
         instead: it stands in place of all before it, and holds them.
@@ -52,6 +52,7 @@ class Task:
     instruction: str
     cure: str
     confirm: str
+    unless: str = ""
     alone_mm: float = math.nan
     then_mm: float = math.nan
     only_after: bool = False
@@ -94,14 +95,32 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
     said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
-    return Task(
+    instruction = known.cure.instruction.format(**words) if known else ""
+    task = Task(
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
         motion="" if said_already else _motion(scene, cause.parts),
-        instruction=_settled(effect, asked) + (known.cure.instruction.format(**words) if known else ""),
+        instruction=instruction,
         cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
         confirm=effect.confirm,
+        unless=unless_confirmed(effect),
+    )
+    doubt = doubt_of(effect, asked)
+    return task if doubt is None else _in_doubt(task, doubt)
+
+
+def _in_doubt(task: Task, doubt: Doubt) -> Task:
+    """A task whose cause is to be settled first: its best reading is told as a condition, and names no part before."""
+    return replace(
+        task,
+        what=capitalised(doubt.what),
+        place=doubt.place,
+        change=OPEN,
+        motion="",
+        instruction=doubt.instruction + task.instruction,
+        cure=MEANWHILE,
+        confirm=doubt.confirm,
     )
 
 
@@ -153,18 +172,6 @@ def _jump(effect: FoundEffect) -> str:
     ]
     axes = "the last D-H frame" if effect.location == "tool" else "the base frame"
     return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
-
-
-def _settled(effect: FoundEffect, asked: bool) -> str:
-    """What comes before the cure of a cause that these rows don't tell from others."""
-    if effect.named_as == "effect":
-        return ""
-    which = plain(effect.title)
-    if " or " not in which:  # kind and region: what they stand for is the best reading and the rivals nearest to it
-        near = [effect_in_words(each.effect, each.location) for each in effect.alternatives[:RIVALS]]
-        which = enumerated([effect_in_words(effect.effect, effect.location), *near], "or")
-    how = " (measure the poses in next_poses.csv)" if asked else ""
-    return f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: "
 
 
 def angle(radians: float) -> str:

@@ -11,9 +11,11 @@ from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import Cause
 from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.sentences import TOLD
 from armscope.verdict.tasks import Task, task_of
-from armscope.verdict.wording import SMALL, capitalised
+from armscope.verdict.wording import SMALL, capitalised, enumerated, places_in_words
 
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
@@ -71,7 +73,9 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     def jobs(some: Sequence[Repair]) -> list[Job]:
         return [(task_of(scene, each, each.effects[0], asked), each.moved) for each in some]
 
-    repairs, minor = jobs(worth.causes), jobs(worth.single)
+    told, single = _told_together(verdict, worth.single)
+    together = [_as_one(cause, members, jobs(members)) for cause, members in told]
+    repairs, minor = [*jobs(worth.causes), *together], jobs(single)
     present = {family.family for family in verdict.background_families if family.present and family.family in SMALL}
     small = [(_everywhere(family), moved) for family, moved in worth.small.items() if family in present]
     before = rms(worth.before)
@@ -93,6 +97,38 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
     return WorkOrder(tuple(done), (*lost, *(f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)))
+
+
+def _told_together(
+    verdict: Diagnosis, single: Sequence[Repair]
+) -> tuple[list[tuple[Cause, list[Repair]]], list[Repair]]:
+    """Causes of minor members alone that the headline tells all the same, with their repairs; and all other repairs."""
+    told = []
+    for cause in verdict.causes:
+        if cause.minor and cause.share > TOLD:
+            those = [each for each in single if each.effects[0].as_member in cause.members]
+            told += [(cause, those)] if those else []
+    taken = {id(each) for _, those in told for each in those}
+    return told, [each for each in single if id(each) not in taken]
+
+
+def _as_one(cause: Cause, members: Sequence[Repair], jobs: Sequence[Job]) -> Job:
+    """The task of several minor effects that only together are worth telling, and what they move together."""
+    moved = sum((each.moved for each in members[1:]), members[0].moved)
+    tasks = [task for task, _ in jobs]
+    if len(tasks) == 1:
+        return tasks[0], moved
+    changes = dict.fromkeys(task.change for task in tasks if task.change)
+    task = Task(
+        what=capitalised(cause.text),
+        place=places_in_words(list(dict.fromkeys(each.effects[0].location for each in members))),
+        change=enumerated(list(changes)),
+        motion="; ".join(task.motion for task in tasks if task.motion),
+        instruction=cause.cure.replace("`", ""),
+        cure="",
+        confirm=" ".join(dict.fromkeys(task.confirm for task in tasks)),
+    )
+    return task, moved
 
 
 def _together(names: Sequence[str], left_mm: float, instead: bool) -> Task:

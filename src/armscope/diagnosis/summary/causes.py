@@ -86,7 +86,7 @@ def _cause(
         family=ordered[0].family if ordered else family,
         level=level,
         place=place,
-        members=tuple(f"{effect.effect} at {effect.location}" for effect in ordered),
+        members=tuple(effect.as_member for effect in ordered),
         everywhere=small is not None,
         minor=all(effect.minor for effect in ordered) and small is None,
         share=sum(effect.share for effect in ordered) + (small.share if small else 0.0),

@@ -1,0 +1,95 @@
+"""A cause that these rows do not tell from others, in a work order: what it could be, and how one finds out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.physics.registry import effect_named
+from armscope.verdict.effects import Alternative, FoundEffect
+from armscope.verdict.sentences import exact_phrase, kind_and_place
+from armscope.verdict.wording import effect_in_words, enumerated, plain
+
+RIVALS = 2
+"""What else a cause could be, as told in a task: the nearest."""
+OPEN = "to be settled"
+"""What is changed about a cause that is not settled: nothing yet."""
+MEANWHILE = "Until then change nothing for it: commands by the whole model (armscope compensate) hold whichever it is."
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """A cause that is not settled, as a work order tells it.
+
+    Attributes:
+        what, place: kind and region, no more.
+        confirm: how each reading shows itself.
+        instruction: what comes before the cure of the best reading.
+    """
+
+    what: str
+    place: str
+    confirm: str
+    instruction: str
+
+
+def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
+    """The doubt about a cause; None where its name is sure.
+
+    Args:
+        effect: found.
+        asked: whether the verdict asks for further measurements.
+
+    Returns:
+        What to say in place of the name.
+    """
+    if effect.named_as == "effect":
+        return None
+    rivals = _rivals(effect)
+    readings: list[FoundEffect | Alternative] = [effect, *rivals]
+    names = [_words(each) for each in readings]
+    which = enumerated(names, "or") if rivals else plain(effect.title)
+    how = " (measure the poses in next_poses.csv)" if asked else ""
+    places = list(dict.fromkeys(each.location for each in readings))
+    _, _, region = effect.title.partition(", ")
+    return Doubt(
+        what=kind_and_place(effect),
+        place=enumerated(places, "or") if _either(effect) or not region else region,
+        confirm=_shown_by(effect, rivals) if rivals else effect.confirm,
+        instruction=f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: ",
+    )
+
+
+def unless_confirmed(effect: FoundEffect) -> str:
+    """What a named cause could be, too, if the test at the arm does not show it; "" where all else is excluded."""
+    near = [_words(each) for each in effect.alternatives if each.excluded is False][:RIVALS]
+    if effect.named_as != "effect" or not near:
+        return ""
+    return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
+
+
+def _rivals(effect: FoundEffect) -> list[Alternative]:
+    """What an unsettled cause could be besides its best reading: those in its title, or else the nearest."""
+    if not _either(effect):
+        return list(effect.alternatives[:RIVALS])
+    return [each for each in effect.alternatives if _words(each) in plain(effect.title)]
+
+
+def _either(effect: FoundEffect) -> bool:
+    """Whether the title says what it could be; else it says kind and region."""
+    return " or " in effect.title
+
+
+def _words(each: FoundEffect | Alternative) -> str:
+    return effect_in_words(each.effect, each.location)
+
+
+def _shown_by(effect: FoundEffect, rivals: list[Alternative]) -> str:
+    """Each reading with how it is confirmed at the arm; those that are confirmed alike together."""
+    names: dict[str, list[str]] = {effect.confirm: [_words(effect)]}
+    for rival in rivals:
+        known = effect_named(rival.effect)
+        if known:
+            names.setdefault(known.confirm, []).append(_words(rival))
+    return " ".join(
+        f"For {enumerated(those, 'and')}: {confirm[:1].lower()}{confirm[1:]}" for confirm, those in names.items()
+    )
