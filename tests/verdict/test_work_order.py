@@ -11,7 +11,7 @@ from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.physics.effect import Part
 from armscope.physics.freeform import UNKNOWN
-from armscope.physics.registry import EFFECTS, effect_named
+from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
 from armscope.report.pages.diagnosis import write_report
@@ -26,7 +26,6 @@ from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut
 from armscope.verdict.tasks import angle, task_of
-from armscope.verdict.wording import effect_in_words
 from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
@@ -327,28 +326,10 @@ def test_a_cause_in_doubt_names_no_part_to_change_and_says_how_each_reading_show
     assert (task.what, task.place, task.change, task.motion) == (
         "The geometry differs from what was stated around joints 5 and 6", "around joints 5 and 6", "to be settled", "",
     )  # fmt: skip
-    for name, reading in (("axis_wobble", vague), ("link_geometry", rivals[0]), ("joint_offset", rivals[1])):
-        known = effect_named(name)
-        assert known
-        assert f"or {effect_in_words(name, reading.location)}" in f"or {task.confirm}".replace("For ", "or ")
-        assert known.confirm[1:] in task.confirm
     before, _, after = task.instruction.partition("If the axis of joint 5 tilts")
     assert "bearing" not in before
     assert "bearing" in after
     assert "whichever it is" in task.cure
-    either = replace(vague, title="axis wobble at joint 5 or link geometry at link 6")
-    assert task_of(model.scene(case.recordings), cause, either).place == "joint 5 or link 6"
-
-
-def test_a_name_with_rivals_that_held_out_rows_do_not_exclude_says_what_else_it_could_be() -> None:
-    size, task = Parameter("offset", "rad", -2.4e-3, 5e-5), {}
-    for excluded in (False, True):
-        rival = Alternative("axis_wobble", "joint 4", "geometric", 7.3, "angle of joint 4", 7.3, excluded)
-        case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 5", size, alternatives=(rival,)),))
-        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
-        task[excluded] = task_of(model.scene(case.recordings), cause, cause.effects[0])
-    assert task[True].unless == ""
-    assert task[False].unless.endswith("it could also be axis wobble at joint 4.")
 
 
 def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:

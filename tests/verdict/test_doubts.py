@@ -1,0 +1,44 @@
+"""A cause in doubt is told by kind and place, with every reading and how it shows itself; a sure one is left alone."""
+
+from dataclasses import replace
+
+from armscope.physics.registry import effect_named
+from armscope.verdict.doubts import doubt_of, unless_confirmed
+from armscope.verdict.effects import Alternative
+from tests.report import verdicts
+
+LINK = Alternative("link_geometry", "link 6", "geometric", 1.5, "constant", 1.5, False)
+ZERO = Alternative("joint_offset", "joint 6", "geometric", 2.0, "constant", 2.0, True)
+VAGUE = verdicts.found(
+    "axis_wobble", "joint 5", named_as="region", title="geometric, around joints 5 and 6", alternatives=(LINK, ZERO)
+)
+
+
+def test_a_doubt_tells_kind_place_and_how_each_reading_shows_itself() -> None:
+    doubt = doubt_of(VAGUE)
+    assert doubt
+    assert doubt.what == "the geometry differs from what was stated around joints 5 and 6"
+    assert doubt.place == "around joints 5 and 6"
+    for name in ("axis_wobble", "link_geometry", "joint_offset"):
+        known = effect_named(name)
+        assert known
+        assert known.confirm[1:] in doubt.confirm
+    either = doubt_of(replace(VAGUE, title="axis wobble at joint 5 or link geometry at link 6"))
+    assert either
+    assert either.place == "joint 5 or link 6"
+    assert "joint offset" not in either.confirm
+
+
+def test_readings_that_are_confirmed_alike_stand_together() -> None:
+    twice = replace(VAGUE, alternatives=(replace(ZERO, location="joint 5"), ZERO))
+    doubt = doubt_of(twice)
+    assert doubt
+    assert "For joint offset at joint 5 and joint offset at joint 6: bring" in doubt.confirm
+
+
+def test_a_sure_name_has_no_doubt_but_says_what_held_out_rows_do_not_exclude() -> None:
+    sure = replace(VAGUE, named_as="effect")
+    assert doubt_of(sure) is None
+    assert unless_confirmed(sure).endswith("it could also be link geometry at link 6.")
+    assert unless_confirmed(replace(sure, alternatives=(ZERO,))) == ""
+    assert unless_confirmed(VAGUE) == "", "all its readings are told"
