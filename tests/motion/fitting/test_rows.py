@@ -10,6 +10,7 @@ import pytest
 from armscope.core.types import Array
 from armscope.motion.fitting.rows import build_rows
 from armscope.motion.fitting.so_far import SoFar, stated_model
+from armscope.motion.library import catalogue
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
@@ -79,6 +80,25 @@ def test_what_is_added_to_a_joint_is_recorded_by_its_gain() -> None:
     rubbing[layout.own], gains[layout.gains] = 1.0, 1.0
     np.testing.assert_allclose(twice.modelled(rubbing), 2 * once.modelled(rubbing), rtol=1e-5)
     np.testing.assert_allclose(twice.modelled(gains), once.modelled(gains))
+
+
+def test_rows_of_another_model_are_those_formed_anew() -> None:
+    """From round to round samples are kept, and columns that don't follow the model."""
+    arm, recorded = robot(), moved(robot(), 3)
+    carrying = replace(recorded, payload=np.where(recorded.time < 5, 0.0, 1.5))
+    laid, how = list(stretches(carrying)), preparation(200.0, 10.0, "test")
+    slopes = catalogue.COMPLIANCE  # of these at the stated masses, until they are chosen and refined
+    placed = tuple(each for each in place_causes(seen(recorded)) if each.cause is not slopes)
+    layout, plain = TorqueLayout(arm, placed, True), stated_model(arm)
+    other = replace(plain, inertial=1.1 * plain.inertial, background=plain.background + 1.0, delay=np.full(3, 0.01))
+    anew = build_rows(layout, laid, how, other)
+    first = build_rows(layout, laid, how, plain)
+    kept = build_rows(layout, laid, how, other, before=first)
+    np.testing.assert_array_equal(kept.nominal, anew.nominal)
+    for j in range(3):
+        scale = np.maximum(np.abs(anew.columns[j]).max(axis=0), 1e-9)
+        np.testing.assert_allclose(kept.columns[j] / scale, anew.columns[j] / scale, atol=1e-6)
+        assert np.abs(kept.columns[j] - first.columns[j]).max() > 0.01
 
 
 @pytest.mark.parametrize("seed", [1, 4])

@@ -25,6 +25,10 @@ def torque(signals: Signals) -> np.ndarray:
     return DRY * DryFriction.of(ARM, np.full(3, DRY)).side(signals, 0) + VISCOUS * signals.dq[:, 0]
 
 
+def torques(signals: Signals) -> np.ndarray:
+    return np.column_stack([torque(signals)] * 3)
+
+
 def low(values: np.ndarray, rate: float, every: int = 1) -> np.ndarray:
     return without_lag(values, 15.0, rate, 200)[::every]
 
@@ -33,7 +37,7 @@ def test_a_late_torque_is_that_of_a_hundred_times_finer_samples() -> None:
     coarse, fine = motion(RATE), motion(100 * RATE)
     true = low(np.interp(fine.time - LATE_S, fine.time, torque(fine)), 100 * RATE, 100)
     dry = DryFriction.of(ARM, np.full(3, DRY))
-    found = low(dry.delayed(coarse, torque(coarse), 0, LATE_S), RATE)
+    found = low(dry.delayed(coarse, dry.path(coarse, torques(coarse)), 0, LATE_S), RATE)
     inside = slice(50, -50)
     assert np.abs(found - true)[inside].max() < 0.02 * DRY
     # a straight line between samples is off by more than twice that, and more near reversals asks for a law
@@ -44,12 +48,12 @@ def test_a_late_torque_is_that_of_a_hundred_times_finer_samples() -> None:
 def test_a_torque_in_time_is_itself() -> None:
     signals = motion(RATE)
     dry = DryFriction.of(ARM, np.full(3, DRY))
-    assert dry.delayed(signals, torque(signals), 0, 0.0) == pytest.approx(torque(signals))
+    assert dry.delayed(signals, dry.path(signals, torques(signals)), 0, 0.0) == pytest.approx(torque(signals))
 
 
 def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
     signals = motion(RATE)
-    dry, both = DryFriction.of(ARM, np.full(3, DRY)), np.column_stack([torque(signals)] * 3)
+    dry, both = DryFriction.of(ARM, np.full(3, DRY)), torques(signals)
     late = 5 / RATE
     rounded = dry.rounded(signals, both, np.array([0.0, late, 0.0]), RATE)
     assert rounded[20:-20, 1] == pytest.approx(rounded[15:-25, 0], abs=0.02 * np.abs(rounded).max())

@@ -22,6 +22,21 @@ from armscope.robot.dynamics import MovingArm
 
 
 @dataclass(frozen=True, eq=False)
+class StatedSamples:
+    """Samples with what the model asks of them before anything is fitted.
+
+    Attributes:
+        signals: N samples.
+        torque: (N, m) that the stated masses ask for.
+        carried: (N, m) that the stated payload asks for.
+    """
+
+    signals: Signals
+    torque: Array
+    carried: Array | float
+
+
+@dataclass(frozen=True, eq=False)
 class MotionRows:
     """K rows of m joints.
 
@@ -35,6 +50,7 @@ class MotionRows:
         gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
             is true torque is recorded. A gain's own column is the stated torque, so that
             (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
+        samples: that they were formed of.
     """
 
     layout: TorqueLayout
@@ -49,6 +65,7 @@ class MotionRows:
     columns: tuple[NDArray[np.float32], ...]
     at: tuple[Indices, ...]
     gain: Array
+    samples: tuple[StatedSamples, ...]
 
     def __len__(self) -> int:
         return len(self.time)
@@ -121,10 +138,13 @@ def build_rows(
     """
     pieces, done, total = [], 0, sum(len(stretch) for stretch in stretches)
     fresh = range(len(layout.placed)) if before is None else _following(layout, before.layout)
-    for signals in parts(stretches, how):
-        piece = _Piece(layout, signals, how, model, before is None)
+    if before is None:
+        made = (_Piece(layout, *_stated(layout.arm, signals), how, model) for signals in parts(stretches, how))
+    else:
+        made = (_Piece(layout, samples, None, how, model) for samples in before.samples)
+    for piece in made:
         pieces.append(piece.rows(fresh))
-        done += len(signals.kept) * how.every
+        done += len(piece.signals.kept) * how.every
         progress("forming the model's columns", min(done / total, 1.0))
     return _joined(layout, pieces) if before is None else _renewed(layout, before, pieces)
 
@@ -146,7 +166,8 @@ def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
     at, columns = pieces[0].at, []
     for j in range(len(at)):
         columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
-    return MotionRows(layout, columns=tuple(columns), at=at, gain=pieces[0].gain, **whole)
+    samples = tuple(each for piece in pieces for each in piece.samples)
+    return MotionRows(layout, columns=tuple(columns), at=at, gain=pieces[0].gain, samples=samples, **whole)
 
 
 def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
@@ -158,28 +179,31 @@ def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows])
     return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain)
 
 
+def _stated(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:
+    """Samples with their stated torque, and (N, m, 10 n) torque per inertial parameter."""
+    regressor = arm.regressor(*signals.of_links)
+    carried = 0.0 if signals.payload is None else signals.payload[:, None] * (regressor @ arm.point_load())
+    return StatedSamples(signals, regressor @ arm.inertial, carried), regressor
+
+
 class _Piece:
     """Some samples, with what the model says of them, on the way to rows."""
 
-    def __init__(self, layout: TorqueLayout, signals: Signals, how: Preparation, model: SoFar, first: bool) -> None:
-        self.layout, self.signals, self.how = layout, signals, how
+    def __init__(
+        self, layout: TorqueLayout, samples: StatedSamples, regressor: Array | None, how: Preparation, model: SoFar
+    ) -> None:
+        self.layout, self.samples, self.how, self.regressor = layout, samples, how, regressor
         self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain
-        arm = self.arm = layout.arm
-        motion = signals.of_links
-        self.regressor = arm.regressor(*motion) if first else None
+        arm, signals = layout.arm, samples.signals
+        self.arm, self.signals = arm, signals
         self.background = own_columns(arm, signals, model.delay)
         inertial = model.inertial_in(signals.run)
-        rigid = self._rigid(inertial)
-        self.carried: Array | float = 0.0
-        if signals.payload is not None:
-            load = arm.point_load()
-            of_load = arm.torques(*motion, inertial + load) - rigid if self.regressor is None else self.regressor @ load
-            self.carried = signals.payload[:, None] * of_load
-        rigid = rigid + self.carried
-        friction, stated = self._friction(model.background), self._rigid(arm.inertial) + self.carried
+        rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
+        rigid = rigid + samples.carried
+        friction, stated = self._friction(model.background), samples.torque + samples.carried
         gravity = None
-        if first and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
-            gravity = np.stack([arm.gravity_torques(motion[0], axis) for axis in np.eye(3)], axis=2)
+        if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
+            gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
         dry = DryFriction.of(arm, model.background[:, 1])
         rate = how.rate / signals.stride
@@ -201,12 +225,6 @@ class _Piece:
     def _friction(self, numbers: Array) -> Array:
         """(N, m) torque of offset, friction and rotor (m, 4) of each joint."""
         return np.asarray(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], numbers))
-
-    def _rigid(self, inertial: Array) -> Array:
-        """(N, m) torque that inertial parameters ask for."""
-        if self.regressor is not None:
-            return np.asarray(self.regressor @ inertial)
-        return self.arm.torques(*self.signals.of_links, inertial)
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""
@@ -243,6 +261,7 @@ class _Piece:
             columns=tuple(columns),
             at=tuple(at),
             gain=self.gain,
+            samples=(self.samples,),
         )
 
     def _nominal(self, regressor: Array) -> Array:
@@ -250,7 +269,7 @@ class _Piece:
         nominal = regressor @ self.arm.inertial
         if np.any(stated):
             nominal += self.low(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], stated))
-        return nominal if self.signals.payload is None else nominal + self.low(np.asarray(self.carried))
+        return nominal if self.signals.payload is None else nominal + self.low(np.asarray(self.samples.carried))
 
     def _own_columns(self, causes: Iterable[int]) -> list[tuple[list[Array], list[Indices]]]:
         """By joint: columns (N, c) of causes, and where they stand."""

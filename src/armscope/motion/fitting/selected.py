@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,15 +36,20 @@ class SelectedCauses:
     problem: Problem
     best: Hypothesis
 
-    @property
+    @functools.cached_property
     def coefficients(self) -> Array:
         """(p,) of all columns, SI."""
         return coefficients_of(self.problem, self.best)
 
-    @property
+    @functools.cached_property
+    def modelled(self) -> Array:
+        """(K, m) N m of the model."""
+        return self.rows.nominal + self.rows.modelled(self.coefficients)
+
+    @functools.cached_property
     def residuals(self) -> Array:
         """(K, m) N m that the model leaves."""
-        return np.asarray(self.rows.torque - self.rows.nominal - self.rows.modelled(self.coefficients))
+        return np.asarray(self.rows.torque - self.modelled)
 
     @property
     def noise(self) -> TorqueWeights:

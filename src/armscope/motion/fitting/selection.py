@@ -89,16 +89,14 @@ def select_causes(
         before = None if selected is None else selected.rows
         rows = build_rows(layout, stretches, how, model, functools.partial(_within, progress, share), before)
         block = blocks_of(rows.run, block_of)
-        space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
         progress("weighing causes", share + 0.15)
         if selected is None:
-            selected = chosen(rows, _start(rows), block, space)
-            found, last = None, (selected.best, selected.best.chosen)
-            weights = selected.noise
-        else:
-            found, last = selected.best.candidates, (selected.best, selected.best.chosen)
-            weights = selected.noise
-        selected = at_own_gain(chosen(rows, weights, block, space, last, selected))
+            space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
+            selected, found = chosen(rows, _start(rows), block, space), None
+        else:  # a scanned number that moves changes columns, and nothing of what competes
+            space, found = selected.space, selected.best.candidates
+        last = selected.best, selected.best.chosen
+        selected = at_own_gain(chosen(rows, selected.noise, block, space, last, selected))
         finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
@@ -194,7 +192,8 @@ def blocks_of(rows: NDArray[np.str_], runs: Sequence[str]) -> Indices:
         (K,) of each row.
     """
     if len(runs) > 1:
-        return np.asarray([list(runs).index(str(run)) for run in rows], dtype=np.intp)
+        names, which = np.unique(rows, return_inverse=True)
+        return np.asarray([list(runs).index(str(name)) for name in names], dtype=np.intp)[which]
     return np.minimum(np.arange(len(rows)) * NOISE.blocks_of_time // len(rows), NOISE.blocks_of_time - 1)
 
 

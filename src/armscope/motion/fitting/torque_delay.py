@@ -117,7 +117,7 @@ def _between_reversals(rows: MotionRows, joint: int) -> NDArray[np.bool_]:
 def _slope(selected: SelectedCauses, joint: int) -> Array:
     """(K,) what a joint's modelled torque becomes per second of more delay."""
     rows = selected.rows
-    torque = (rows.nominal + rows.modelled(selected.coefficients))[:, joint]
+    torque = selected.modelled[:, joint]
     found = np.zeros(len(rows))
     for number in np.unique(rows.stretch):
         there = np.flatnonzero(rows.stretch == number)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.library.clauses import Clause
@@ -84,6 +85,13 @@ class Moment:
     stated: Array | None = None
     bare: Array | None = None
     read: Array | None = None
+
+    @functools.cached_property
+    def path(self) -> BSpline:
+        """Of what is predicted of all joints over time, but for dry friction, where it is known how that turned."""
+        if self.dry is not None:
+            return self.dry.path(self.signals, self.predicted)
+        return make_interp_spline(self.signals.time, self.predicted, k=3)
 
     @functools.cached_property
     def slopes(self) -> tuple[Array, Array, Array]:

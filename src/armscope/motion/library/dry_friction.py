@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.library.sides import coulomb_width, sharp_width, side
@@ -13,21 +13,23 @@ from armscope.motion.samples.preparation import Signals
 from armscope.robot.dynamics import MovingArm
 
 
-def seen_later(time: Array, values: Array, delay: float) -> Array:
-    """Samples as they were some time ago, by a cubic spline.
+def seen_later(time: Array, path: BSpline, joint: int, delay: float) -> Array:
+    """What a joint has as it was some time ago, by a cubic spline.
 
     A straight line between samples blurs what is between them: of a wave of five samples it loses a fifth half way,
     and friction that changes sides more softly than it does asks for another law near rest.
 
     Args:
         time: (N,) s, even.
-        values: (N,) at these times.
+        path: of all joints at these times.
+        joint: from 0.
         delay: s.
 
     Returns:
         (N,) of ``delay`` earlier; before the first sample, and after the last one, as it is.
     """
-    return np.asarray(make_interp_spline(time, values, k=3)(np.clip(time - delay, time[0], time[-1])))
+    own = BSpline.construct_fast(path.t, np.ascontiguousarray(path.c[:, joint]), path.k)
+    return np.asarray(own(np.clip(time - delay, time[0], time[-1])))
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,21 +83,33 @@ class DryFriction:
         at = replace(signals, dq=dq[:, None], ddq=ddq[:, None])
         return side(at, np.array([self.width[joint] if width is None else width]))[:, 0]
 
-    def delayed(self, signals: Signals, torque: Array, joint: int, delay: float) -> Array:
+    def path(self, signals: Signals, torque: Array) -> BSpline:
+        """Over time, torques (N, m) without their dry friction: what is smooth of them.
+
+        Args:
+            signals: N samples.
+            torque: (N, m) with dry friction.
+
+        Returns:
+            A cubic spline of all joints.
+        """
+        turned = replace(signals, dq=signals.dq - signals.ddq * self.turning)
+        return make_interp_spline(signals.time, torque - self.torque * side(turned, self.width), k=3)
+
+    def delayed(self, signals: Signals, path: BSpline, joint: int, delay: float) -> Array:
         """(N,) a joint's torque of some time ago: what is smooth by a spline, and its dry friction exactly.
 
         Args:
             signals: N samples.
-            torque: (N,) of the joint, its dry friction in it.
+            path: of torques without dry friction.
             joint: from 0.
             delay: s ago.
 
         Returns:
             Torque, N m (N).
         """
-        smooth = torque - self.torque[joint] * self.side(signals, joint)
         before = self.torque[joint] * self.side(signals, joint, delay)
-        return np.asarray(seen_later(signals.time, smooth, delay) + before)
+        return np.asarray(seen_later(signals.time, path, joint, delay) + before)
 
     def rounded(self, signals: Signals, torque: Array, delay: Array, rate: float) -> Array:
         """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
@@ -111,9 +125,9 @@ class DryFriction:
         """
         late = np.flatnonzero(delay)
         if len(late):
-            torque = torque.copy()
+            torque, path = torque.copy(), self.path(signals, torque)
             for j in map(int, late):
-                torque[:, j] = self.delayed(signals, torque[:, j], j, delay[j])
+                torque[:, j] = self.delayed(signals, path, j, delay[j])
         return np.asarray(np.gradient(np.gradient(torque, 1 / rate, axis=0), 1 / rate, axis=0))
 
 

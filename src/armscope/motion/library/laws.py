@@ -103,8 +103,8 @@ def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
     if delay == 0:
         return np.asarray(-np.gradient(torque, 1 / m.rate))
     if m.dry is None:
-        return (seen_later(m.signals.time, torque, delay) - torque) / delay
-    return (m.dry.delayed(m.signals, torque, joints[0], delay) - torque) / delay
+        return (seen_later(m.signals.time, m.path, joints[0], delay) - torque) / delay
+    return (m.dry.delayed(m.signals, m.path, joints[0], delay) - torque) / delay
 
 
 def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:

@@ -7,7 +7,6 @@ motion up to 14 Hz, is 2 N m of a link of 60 kg m^2.
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import detrend, welch
 
 from armscope.core.types import Array
 from armscope.motion.samples.constants import CUTOFF
@@ -24,6 +23,8 @@ def link_bands(beside: Array, rate: float) -> Array:
         (m,) Hz: `CUTOFF.beyond_motion` times where the spectrum comes down to that of the highest frequencies; 0 where
         it never leaves it, and the link can only be taken to move as its motor does.
     """
+    from scipy.signal import detrend, welch  # takes long to import: most tables have no such links
+
     bands = np.zeros(beside.shape[1])
     for j in np.flatnonzero(np.isfinite(beside).all(axis=0)):
         steady = detrend(beside[:, j])
