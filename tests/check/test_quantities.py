@@ -87,3 +87,16 @@ def test_the_check_says_what_stands_beside_the_points(table):
     assert "kelvin" in report.text()
     still = check(replace(table, temperature=np.full(ROWS, 20.0), payload=np.zeros(ROWS)))
     assert "temperature, payload never change, so nothing can be learned from them" in still.text()
+
+
+def test_coarse_angles_are_worth_a_look_where_an_instrument_sees_them(arm, table):
+    coarse, fine = (
+        replace(table, motor_angles=np.radians(np.round(np.degrees(table.motor_angles), decimals)))
+        for decimals in (1, 4)
+    )
+    (found,) = of_quantities(replace(coarse, torque=None), arm)
+    assert found.weight == "hint"
+    most = np.radians(0.1) / 2 * arm.reach * 1e3
+    assert "steps of 0.1 degrees" in found.text()
+    assert f"up to {most:.2g} mm" in found.text()
+    assert of_quantities(replace(fine, torque=None), arm) == []

@@ -104,13 +104,24 @@ def test_scatter_is_found_at_its_joint_and_noise_has_no_place() -> None:
     assert np.sqrt(np.mean(white**2)) < 1.2 * 0.02 < 0.5 * np.sqrt(np.mean(scattered**2))
 
 
-def test_bad_shots_of_any_direction_are_no_scatter() -> None:
+@pytest.mark.parametrize("share", [0.02, 0.06, 0.12])
+def test_bad_shots_of_any_direction_are_no_scatter_and_hide_none(share: float) -> None:
     arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
     moved = motor_jacobians(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
     rng = np.random.default_rng(5)
     residuals = 0.02 * rng.normal(size=(150, 3))
-    residuals[:3] += rng.normal(size=(3, 3))
+    residuals[: round(share * 150)] += rng.normal(size=(round(share * 150), 3))
     assert find_scatter(residuals, moved, 0.0) == []
+    residuals += 1e-4 * rng.choice([-1, 1], 150)[:, None] * moved[2]
+    assert [found.motor for found in find_scatter(residuals, moved, 0.0)] == [3]
+
+
+def test_heavy_tails_are_no_scatter() -> None:
+    arm, table = planted("six-axis", {}, 150, 0.0, seed=3)
+    moved = motor_jacobians(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}), table)
+    rng = np.random.default_rng(6)
+    of_row = np.sqrt(4 / rng.chisquare(4, 150))
+    assert find_scatter(0.02 * of_row[:, None] * rng.normal(size=(150, 3)), moved, 0.0) == []
 
 
 def test_weights_leave_noise_alone_and_silence_what_is_far() -> None:

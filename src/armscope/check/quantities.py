@@ -8,6 +8,7 @@ from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings import Recordings
+from armscope.recordings.resolution import angle_steps
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
 
@@ -26,13 +27,28 @@ FOLLOWS = 0.5
 MANY_TIMES = 100.0
 """Mass tables are wrong by less than this factor, units by more."""
 
+SEEN_M = 1e-4
+"""What instruments that see an arm tell apart."""
+
 MOST_ROWS = 400
 
 
 def of_quantities(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
     """Look at temperature, payload, stated uncertainty, time and torques."""
     found = [_temperature(recordings), _payload(recordings, arm), _sigma(recordings), _time(recordings)]
-    return [each for each in [*found, _torque(recordings, arm)] if each is not None]
+    of_arm = [_torque(recordings, arm), None if arm is None else _coarse_angles(recordings, arm)]
+    return [each for each in [*found, *of_arm] if each is not None]
+
+
+def _coarse_angles(recordings: Recordings, arm: Arm) -> Suspicion | None:
+    step = float(angle_steps(recordings.motor_angles).max())
+    if (most := step / 2 * arm.reach) < SEEN_M:
+        return None
+    cure = (
+        f"If poses were commanded in such steps, all is well; if they were rounded when they were written down, that "
+        f"moves the tool by up to {most * 1e3:.2g} mm: record more digits."
+    )
+    return Suspicion("hint", f"the angles stand in steps of {np.degrees(step):.3g} degrees", cure)
 
 
 def _temperature(recordings: Recordings) -> Suspicion | None:

@@ -28,6 +28,7 @@ from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible
+from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     masses_in_error,
@@ -122,6 +123,7 @@ def judge(
     told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)
     answer, mismatch = _answer(effects, background, unexplained)
     separating = next_poses(state, basis.rivals, rng)
+    of_rounding = rounding_mm(state)
     draft = Diagnosis(
         arm=fit.model.arm.name,
         source=state.recordings.source,
@@ -131,8 +133,10 @@ def judge(
         answer=answer,
         headline="",
         mismatch=mismatch,
-        noise_mm=fit.noise,
-        noise_source=state.noise.source + ("; it grows with the distance" if state.growth else ""),
+        noise_mm=float(np.hypot(fit.noise, of_rounding)),
+        noise_source=state.noise.source
+        + ("; it grows with the distance" if state.growth else "")
+        + ("; rounded angles are part of it" if of_rounding else ""),
         residual_before_mm=float(np.sqrt(variance)),
         residual_after_mm=_weighted_rms(fit),
         causes=told,
@@ -146,7 +150,13 @@ def judge(
         residuals=_residuals(state),
         suspects=_suspects(state),
         next_poses=separating,
-        notices=(*state.notices, *_carefully(state), *weights_told, *(basis.model_error.notices() if found else ())),
+        notices=(
+            *state.notices,
+            *_carefully(state),
+            *weights_told,
+            *told_of_rounding(state, of_rounding),
+            *(basis.model_error.notices() if found else ()),
+        ),
         model=_held(fit.model, state.recordings),
         orientations=_orientations(state),
     )

@@ -9,7 +9,7 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.constants import LOOP
-from armscope.fitting.joint_scatter import Scattered, find_scatter, motor_jacobians, noise_between, whitening
+from armscope.fitting.joint_scatter import Scattered, find_rounding, motor_jacobians, noise_between, whitening
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals
@@ -25,6 +25,7 @@ from armscope.measurement.noise import (
 )
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics.model import FittedModel
+from armscope.recordings.resolution import angle_steps
 
 
 class NoiseOfRows:
@@ -39,7 +40,8 @@ class NoiseOfRows:
     Attributes:
         rows: relative uncertainty of the rows, and which are independent.
         weights: of the rows.
-        scatter: of motors that stand elsewhere each time.
+        scatter: of motors that stand elsewhere each time, or whose angles are rounded.
+        steps: (m,) rad, in which the motors' angles stand; 0 where in none.
         growth: with the distance, where there is such.
     """
 
@@ -49,6 +51,7 @@ class NoiseOfRows:
         self.start, self.table, self.pose = start, table, poses(recordings)
         self.residuals = residuals
         self.scatter: list[Scattered] = []
+        self.steps = angle_steps(recordings.motor_angles)
         self.growth: Growth | None = None
         uncertainty = relative_uncertainty(recordings, robust.scale_of(residuals.points_mm))
         near = np.ones(len(recordings), dtype=bool)
@@ -98,7 +101,7 @@ class NoiseOfRows:
     def scatter_has_changed(self) -> bool:
         """Look for scatter in what is left; take its whitening into account where it is new."""
         found = self._find_scatter()
-        if {s.motor for s in found} == {s.motor for s in self.scatter}:
+        if {(s.motor, s.rounded) for s in found} == {(s.motor, s.rounded) for s in self.scatter}:
             return False
         self._take(found)
         return True
@@ -128,13 +131,14 @@ class NoiseOfRows:
         left = self.residuals.points_mm
         rows = spread_evenly(len(left), LOOP.scatter_rows)
         relative = self.rows.uncertainty[rows, None]
-        return find_scatter(left[rows] / relative, self.moved[:, rows] / relative, self.least_mm)
+        return find_rounding(left[rows] / relative, self.moved[:, rows] / relative, self.steps, self.least_mm)
 
     def _take(self, found: list[Scattered]) -> None:
         """Whiten the rows by scatter of these places and sizes, and weigh them anew."""
         self.scatter = found
         white = None
         if found:
-            between = noise_between(self.residuals.points_mm, self.moved, found, self.least_mm)
+            rows = spread_evenly(len(self.moved[0]), LOOP.scatter_rows)
+            between = noise_between(self.residuals.points_mm[rows], self.moved[:, rows], found, self.least_mm)
             white = whitening(found, self.moved, between)
         self.weights = self.rows.weights(self.residuals, self.least_mm, white)

@@ -148,6 +148,12 @@ class ScatterRules(Constants):
     price_nats: float = constant(
         15.0, "of a place of scatter", "judgement: its share of a library of joints and sizes, and caution", unit="nats"
     )
+    price_of_rounding_nats: float = constant(
+        3.0,
+        "of rounded angles",
+        "judgement: their size is known and what is asked is yes or no; odds of 20",
+        unit="nats",
+    )
     most_places: int = constant(3, "that may scatter", "judgement: more are better called noise", unit="joints")
     largest_rad: float = constant(
         0.02,
@@ -155,11 +161,13 @@ class ScatterRules(Constants):
         "judgement: the tool hardly sees it turn",
         unit="rad",
     )
-    trimmed: float = constant(
-        0.03,
-        "share of the farthest rows without which the evidence must hold, too",
-        "judgement: bad shots have no place",
+    strays: tuple[float, ...] = constant(
+        (0.003, 0.03, 0.3), "share of bad shots that competes", "judgement: hardly any, some, as many as a table bears"
     )
+    width_of_strays: float = constant(
+        5.0, "of the rows' own scatter, within which half the bad shots are", "judgement: bad shots are far out"
+    )
+    steps_of_noise: int = constant(20, "in which the noise beside them is found", "judgement: more than it takes")
 
 
 STEPS = FittingSteps()

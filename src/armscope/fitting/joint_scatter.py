@@ -3,12 +3,15 @@
 Backlash without a record of the side of approach, a slipping coupling, a loose encoder: their size can't be predicted,
 but their direction in space is that of one joint's Jacobian. The residual's covariance is then
 noise^2 (I + sum over joints of (rho L)(rho L)') with the joint's lever L, and evidence for rho > 0 names the joint.
+
+Bad shots have no place, but a Gaussian alone would rather give them one than call them unlikely. So a share of the rows
+may be strays, whose density is wide, has heavy tails, and is the same whether a joint scatters or not.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,11 +24,19 @@ from armscope.physics.model import FittedModel
 
 @dataclass(frozen=True)
 class Scattered:
-    """Scatter at one motor: its size (rad, 1-sigma) and the evidence for it, nats."""
+    """Scatter at one motor.
+
+    Attributes:
+        motor: counted from 1.
+        size: rad, 1-sigma.
+        evidence: for it, nats.
+        rounded: whether it is that of angles that were rounded before they were written down.
+    """
 
     motor: int
     size: float
     evidence: float
+    rounded: bool = False
 
 
 def motor_jacobians(model: FittedModel, table: Measured) -> Array:
@@ -56,27 +67,66 @@ def find_scatter(residuals: Array, moved: Array, least_noise: float) -> list[Sca
     Returns:
         Joint, size at it and evidence of each.
     """
-    size = np.linalg.norm(residuals, axis=1)
-    near = size <= np.quantile(size, 1 - SCATTER.trimmed)
     found: dict[int, float] = {}
     told: list[Scattered] = []
     for _ in range(min(SCATTER.most_places, len(moved))):
-        start = [_likelihood(residuals[rows], moved[:, rows], found, least_noise) for rows in (slice(None), near)]
-        best: tuple[float, int, float] | None = None
-        for j, rho in _trials(moved, found, start[0][1]):
-            tried = {**found, j: rho}
-            gain = min(
-                _likelihood(residuals[rows], moved[:, rows], tried, least_noise)[0] - before[0]
-                for rows, before in zip((slice(None), near), start, strict=True)
-            )
-            if best is None or gain > best[0]:
-                best = gain, j, rho
-        if best is None or best[0] < SCATTER.price_nats:
+        before, noise = _likelihood(residuals, moved, found, least_noise)
+        tried = [
+            (_likelihood(residuals, moved, {**found, j: rho}, least_noise)[0] - before, j, rho)
+            for j, rho in _trials(moved, found, noise)
+        ]
+        gain, j, rho = max(tried, default=(0.0, 0, 0.0))
+        if gain < SCATTER.price_nats:
             break
-        found[best[1]] = best[2]
+        found[j] = rho
         noise = _likelihood(residuals, moved, found, least_noise)[1]
-        told.append(Scattered(best[1] + 1, best[2] * noise, best[0] - SCATTER.price_nats))
+        told.append(Scattered(j + 1, rho * noise, gain - SCATTER.price_nats))
     return told
+
+
+def find_rounding(residuals: Array, moved: Array, steps: Array, least_noise: float) -> list[Scattered]:
+    """Where rows scatter, as `find_scatter`, if the angles in the table may have been rounded.
+
+    Poses may have been commanded in round numbers, without any error: so it is believed where the residuals show it.
+
+    Args:
+        residuals: (N, 3) mm, base axes.
+        moved: (m, N, 3) from `motor_jacobians`.
+        steps: (m,) rad, in which each motor's angles stand, 0 where in none.
+        least_noise: mm.
+
+    Returns:
+        Rounding at all motors, where it is believed, and what scatters beside it.
+    """
+    alone = find_scatter(residuals, moved, least_noise)
+    rounded = [Scattered(int(j) + 1, float(steps[j]) / np.sqrt(12), 0.0, True) for j in np.flatnonzero(steps)]
+    if not rounded:
+        return alone
+    noise = noise_between(residuals, moved, rounded, least_noise)
+    gain = (
+        _likelihood(residuals, moved, _in_units_of(noise, rounded), least_noise)[0]
+        - _likelihood(residuals, moved, {}, least_noise)[0]
+    )
+    white = whitening(rounded, moved, noise)
+    assert white is not None
+    beside = find_scatter(
+        np.einsum("nij,nj->ni", white, residuals), np.einsum("nij,mnj->mni", white, moved), least_noise
+    )
+    if gain + _evidence(beside) < _evidence(alone) + SCATTER.price_of_rounding_nats:
+        return alone
+    return [*(replace(each, evidence=gain / len(rounded)) for each in rounded), *beside]
+
+
+def _evidence(found: Sequence[Scattered]) -> float:
+    return sum(each.evidence for each in found)
+
+
+def _in_units_of(noise: float, found: Sequence[Scattered]) -> dict[int, float]:
+    """Sizes by motor (from 0), rad per mm of noise; rounding and scatter of one motor add up as variances."""
+    rho: dict[int, float] = {}
+    for each in found:
+        rho[each.motor - 1] = float(np.hypot(rho.get(each.motor - 1, 0.0), each.size / noise))
+    return rho
 
 
 def _trials(moved: Array, found: Mapping[int, float], noise: float) -> Iterator[tuple[int, float]]:
@@ -88,13 +138,31 @@ def _trials(moved: Array, found: Mapping[int, float], noise: float) -> Iterator[
 
 
 def _likelihood(residuals: Array, moved: Array, rho: Mapping[int, float], least: float) -> tuple[float, float]:
-    """Log likelihood with the noise at its best, and that noise, mm."""
+    """Log likelihood with the noise and the share of strays at their best, and that noise, mm."""
     V = _covariance(moved, rho)
     _, logdet = np.linalg.slogdet(V)
     squares = np.einsum("ni,ni->n", residuals, np.linalg.solve(V, residuals[:, :, None])[:, :, 0])
-    n = residuals.size
-    noise = max(float(np.sqrt(squares.sum() / n)), least, 1e-9)
-    return float(-n * np.log(noise) - 0.5 * logdet.sum() - 0.5 * squares.sum() / noise**2), noise
+    wide = _density_of_strays(residuals, max(least, 1e-9))
+    return max(_with_strays(squares, logdet, wide, share, max(least, 1e-9)) for share in SCATTER.strays)
+
+
+def _density_of_strays(residuals: Array, least: float) -> Array:
+    """(N,) log density of each row if it were a stray: Cauchy's in three dimensions, some times as wide as the rows."""
+    squares = np.einsum("ni,ni->n", residuals, residuals)
+    width2 = SCATTER.width_of_strays**2 * max(float(np.median(squares)) / 3, least**2)
+    return np.asarray(-2 * np.log(np.pi) - 1.5 * np.log(width2) - 2 * np.log1p(squares / width2))
+
+
+def _with_strays(squares: Array, logdet: Array, wide: Array, share: float, least: float) -> tuple[float, float]:
+    """Log likelihood where such a share are strays, and the noise of the others, by expectation and maximisation."""
+    noise2 = max(float(np.median(squares)) / 3, least**2)
+    for step in range(SCATTER.steps_of_noise + 1):
+        own = np.log1p(-share) - 0.5 * (3 * np.log(2 * np.pi * noise2) + logdet + squares / noise2)
+        together = np.logaddexp(own, np.log(share) + wide)
+        if step < SCATTER.steps_of_noise:
+            belongs = np.exp(own - together)
+            noise2 = max(float(belongs @ squares / max(3 * belongs.sum(), 1.0)), least**2)
+    return float(together.sum()), float(np.sqrt(noise2))
 
 
 def _covariance(moved: Array, rho: Mapping[int, float]) -> Array:
@@ -119,7 +187,7 @@ def noise_between(residuals: Array, moved: Array, found: Sequence[Scattered], le
     """
     noise = max(least, float(np.sqrt(np.mean(residuals**2))))
     for _ in range(20):
-        noise = _likelihood(residuals, moved, {s.motor - 1: s.size / noise for s in found}, least)[1]
+        noise = _likelihood(residuals, moved, _in_units_of(noise, found), least)[1]
     return noise
 
 
@@ -136,5 +204,5 @@ def whitening(found: Sequence[Scattered], moved: Array, noise: float) -> Array |
     """
     if not found:
         return None
-    values, vectors = np.linalg.eigh(_covariance(moved, {s.motor - 1: s.size / noise for s in found}))
+    values, vectors = np.linalg.eigh(_covariance(moved, _in_units_of(noise, found)))
     return np.asarray((vectors / np.sqrt(values)[:, None, :]) @ np.swapaxes(vectors, 1, 2))

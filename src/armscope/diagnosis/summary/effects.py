@@ -224,10 +224,11 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
     Yields:
         One effect per motor that scatters.
     """
-    moved = motor_jacobians(state.fit.model, state.recordings) if state.scatter else np.empty(0)
-    sizes = [s.size * float(np.sqrt(np.mean(moved[s.motor - 1] ** 2))) for s in state.scatter]
+    at_fault = [each for each in state.scatter if not each.rounded]
+    moved = motor_jacobians(state.fit.model, state.recordings) if at_fault else np.empty(0)
+    sizes = [each.size * float(np.sqrt(np.mean(moved[each.motor - 1] ** 2))) for each in at_fault]
     together = sum(rms**2 for rms in sizes)
-    for scattered, rms in zip(state.scatter, sizes, strict=True):
+    for scattered, rms in zip(at_fault, sizes, strict=True):
         location = f"joint {scattered.motor}"
         yield FoundEffect(
             effect="unknown",

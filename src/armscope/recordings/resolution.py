@@ -1,0 +1,41 @@
+"""How finely a table's angles are written: what is rounded moves the tool without anybody having commanded it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+
+FEWEST_VALUES = 10
+"""Different angles of a joint, below which round numbers are how the poses were chosen."""
+MOST_DECIMALS = 4
+"""Of a unit; what is written more finely moves no tool by what an instrument sees."""
+OF_A_STEP = 1e-6
+"""A value may lie so far beside a step: conversion between units, and nothing else, leaves that."""
+
+
+def angle_steps(motor_angles: Array) -> Array:
+    """The decimal steps in which each motor's angles stand.
+
+    A value that was rounded to a step lies anywhere within half of it: its error has step / sqrt(12) as standard
+    deviation (uniform distribution).
+
+    Args:
+        motor_angles: (N, m) rad.
+
+    Returns:
+        (m,) rad: the largest of 1, 0.1, ... degrees or 0.1, 0.01, ... rad of which all values are multiples; 0 where
+        there is none, or too few different values to tell.
+    """
+    return np.array([_step(np.unique(of_motor)) for of_motor in motor_angles.T])
+
+
+def _step(values: Array) -> float:
+    if len(values) < FEWEST_VALUES:
+        return 0.0
+    steps = [unit * 10.0**-decimals for unit in (np.pi / 180, 1.0) for decimals in range(MOST_DECIMALS + 1)]
+    return max((step for step in steps if _are_multiples(values / step)), default=0.0)
+
+
+def _are_multiples(in_steps: Array) -> bool:
+    return bool(np.all(np.abs(in_steps - np.round(in_steps)) < OF_A_STEP * np.maximum(1.0, np.abs(in_steps))))
