@@ -20,6 +20,7 @@ from armscope.physics.payload import payload_errors
 from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import mesh
+from armscope.physics.zero_shift import zero_shift
 from armscope.recordings import Recordings
 
 from .scenes import ARMS, arm_named, full_table
@@ -38,6 +39,7 @@ def every_placed(scene: Scene) -> list[Placed]:
         *[mesh(j, 17) for j in range(1, arm.n_motors + 1)],
         base_shift(table, 5, 1),
         tool_shift(table, 5, 1),
+        zero_shift(table, 5, 1, 2),
         *payload_errors(table, give),
         *free_frames(table, tool_per_run=True),
     ]

@@ -23,6 +23,7 @@ from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import mesh
+from armscope.physics.zero_shift import zero_shift
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
@@ -59,6 +60,7 @@ PLANTED = {
     "parallelogram_geometry": ("parallelogram_geometry", "parallelogram"),
     "base_drift": ("base_drift", "base"),
     "base_shift": ("base_shift", "base"),
+    "zero_shift": ("zero_shift", "joint 2"),
     "instrument_scale": ("instrument_scale", "instrument"),
     "unknown": ("gear_ratio", "joint 3"),  # which a free curve of the joint's angle holds, too
 }
@@ -139,6 +141,9 @@ def candidates(effect: str, place: str, world: World, table: Recordings) -> list
         return [mesh(Location.of(place).number, round(values["per_turn"]))]
     if effect == "base_shift":
         return [base_shift(table, int(np.argmax(world.session.time >= values["time"])), 1)]
+    if effect == "zero_shift":
+        row = int(np.argmax(world.session.time >= values["time"]))
+        return [zero_shift(table, row, 1, Location.of(place).number)]
     forms = [p for p in library(world.arm, table) if p.key == (effect, place) and not p.refinement]
     return [p for p in forms if p.variant == "angle"] if effect == "unknown" else forms
 
@@ -210,6 +215,7 @@ def test_a_command_is_what_the_cures_own_formula_says(effect: str, kind: str, pl
         "approach": table.approach[:, at.index],
         "speed": table.speed[:, at.index],
         "cos": np.cos,
+        "after": table.time > world.concealed[0].values.get("time", np.inf),
     }
     formula = formulas[-1] if part.placed.variant == "load" else formulas[0]
     said = eval(formula.replace(" x ", " * "), {"__builtins__": {}}, names)

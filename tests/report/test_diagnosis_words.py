@@ -39,6 +39,7 @@ PARAMETERS = {
     "base_drift": [(axis, "mm/h", 0.1) for axis in "xyz"],
     "base_shift": [("x", "mm", 0.3), ("y", "mm", 0.4), ("z", "mm", 0.0), ("time", "s", 4711.0)],
     "tool_shift": [("x", "mm", 0.3), ("y", "mm", 0.4), ("z", "mm", 0.0), ("row", "", 85.0)],
+    "zero_shift": [("jump", "rad", -5e-4), ("time", "s", 4711.0)],
     "instrument_scale": [("scale", "m/m", -1.5e-5)],
     "payload_error": [("mass", "kg", 2.0)],
     "parallelogram_geometry": [("rod", "mm", 0.4), ("rocker", "mm", -0.2)],
@@ -60,6 +61,7 @@ SAID = {
     "base_drift": "the base drifts by 0.17 mm per hour",
     "base_shift": "the base jumped by 0.50 mm at 4711 s",
     "tool_shift": "the tool jumped by 0.50 mm at row 85",
+    "zero_shift": "the zero of joint 2 jumped by −0.50 mrad at 4711 s",
     "instrument_scale": "the instrument measures 15 millionths (ppm) too short",
 }
 

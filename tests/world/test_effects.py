@@ -47,6 +47,7 @@ MOTOR_ERRORS = {
     "gear_eccentricity": lambda v, s, j: wave(v, s.commanded[:, j]),
     "gear_mesh": lambda v, s, j: wave(v, s.commanded[:, j]),
     "backlash": lambda v, s, j: -s.approach[:, j] * v["gap"] / 2,
+    "zero_shift": lambda v, s, j: v["jump"] * (s.time > v["time"]),
     "servo_lag": lambda v, s, j: -s.speed[:, j] * v["delay"],
     "joint_coupling": lambda v, s, j: v["coupling"] * s.commanded[:, j - 1],
 }

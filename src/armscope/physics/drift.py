@@ -113,11 +113,15 @@ def _drifts(told: Told) -> str:
     return f"the base drifts by {_length(told)} mm per {'1000 rows' if in_rows else 'hour'}{comma}{paused}"
 
 
+def when(told: Told) -> str:
+    """When a jump happened, to be put behind what jumped."""
+    at = f" at {told.numbers['time'].value:.0f} s" if "time" in told.numbers else ""
+    at = f" at row {told.numbers['row'].value:.0f}" if "row" in told.numbers else at
+    return next((f"{before}{told.driver}" for start, before in OF_RUNS.items() if told.driver.startswith(start)), at)
+
+
 def _jumped(told: Told) -> str:
-    when = f" at {told.numbers['time'].value:.0f} s" if "time" in told.numbers else ""
-    when = f" at row {told.numbers['row'].value:.0f}" if "row" in told.numbers else when
-    when = next((f"{before}{told.driver}" for start, before in OF_RUNS.items() if told.driver.startswith(start)), when)
-    return f"the {told.location} jumped by {_length(told)} mm{when}"
+    return f"the {told.location} jumped by {_length(told)} mm{when(told)}"
 
 
 BASE_DRIFT = Effect(
@@ -185,25 +189,52 @@ def shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, l
         The effect in place.
     """
     location, axes = ("base", AXES) if effect is BASE_SHIFT else ("tool", _axes_of_tool(recordings))
+    start = moment(recordings, row, later)
+    terms = six_terms(location, start.driver, axes=axes)
+    return from_then_on(Placed(effect, location, terms, (1.0,) * len(axes), "", multiplicity=multiplicity), start)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """From when on something is otherwise.
+
+    Attributes:
+        driver: one from then on, until its run's end and in later runs, zero before.
+        scanned: its name, unit and value, as the verdict tells it.
+        run: in which it lies.
+        words: by what it is told, time or rows, and in which run where there are several.
+    """
+
+    driver: Driver
+    scanned: tuple[str, str, float]
+    run: str
+    words: str
+
+
+def moment(recordings: Recordings, row: int, later: tuple[str, ...]) -> Moment:
+    """The moment before a row (0-based) of a table, by its time where that is recorded.
+
+    Args:
+        recordings: the table.
+        row: the first afterwards.
+        later: runs that come after the row's run and are as it is after the moment.
+
+    Returns:
+        The moment.
+    """
     run = str(recordings.run[row])
     several = f", run {run}" if len(np.unique(recordings.run)) > 1 else ""
-    scanned: tuple[str, str, float]
     if recordings.time is not None:
-        start = float(recordings.time[row])
-        driver, scanned = Driver("after time", (start, run, *later)), ("time", "s", start)
-    else:
-        number = float(recordings.number[row])
-        driver, scanned = Driver("after row", (number, run, *later)), ("row", "", number)
-    return Placed(
-        effect,
-        location,
-        six_terms(location, driver, axes=axes),
-        (1.0,) * len(axes),
-        ("time" if recordings.time is not None else "order of rows") + several,
-        scanned=(scanned,),
-        multiplicity=multiplicity,
-        variant=f"{run} {scanned[2]:g}",
-    )
+        time = float(recordings.time[row])
+        return Moment(Driver("after time", (time, run, *later)), ("time", "s", time), run, "time" + several)
+    number = float(recordings.number[row])
+    return Moment(Driver("after row", (number, run, *later)), ("row", "", number), run, "order of rows" + several)
+
+
+def from_then_on(placed: Placed, start: Moment) -> Placed:
+    """What jumps in place, with its moment told."""
+    variant = f"{start.run} {start.scanned[2]:g}"
+    return replace(placed, driver=start.words, scanned=(start.scanned,), variant=variant)
 
 
 BASE_SHIFT = Effect(

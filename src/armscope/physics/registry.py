@@ -10,7 +10,17 @@ from collections.abc import Iterable, Iterator
 from importlib.metadata import EntryPoint, entry_points
 
 from armscope.core.inputs import InputError
-from armscope.physics import drift, elastic, freeform, geometric, instrument, payload, thermal, transmission
+from armscope.physics import (
+    drift,
+    elastic,
+    freeform,
+    geometric,
+    instrument,
+    payload,
+    thermal,
+    transmission,
+    zero_shift,
+)
 from armscope.physics.drivers import KINDS
 from armscope.physics.effect import Effect, Placed
 from armscope.physics.learned_sizes import with_learned_sizes
@@ -25,6 +35,7 @@ EFFECTS: tuple[Effect, ...] = (
     *elastic.EFFECTS,
     *thermal.EFFECTS,
     *drift.EFFECTS,
+    *zero_shift.EFFECTS,
     *instrument.EFFECTS,
     *payload.EFFECTS,
     *freeform.EFFECTS,

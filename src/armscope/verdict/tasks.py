@@ -163,7 +163,10 @@ def _number(parameter: Parameter, effect: FoundEffect) -> str:
 
 
 def _jump(effect: FoundEffect) -> str:
-    """How far and which way, in the axes of what jumped."""
+    """How far and which way: of a joint, or in the axes of what jumped."""
+    zero = next((p.value for p in effect.parameters if p.name == "jump"), None)
+    if zero is not None:
+        return f" (it jumped by {angle(zero)})"
     named = {"rx": "about x", "ry": "about y", "rz": "about z"}
     told = [
         f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {_signed(p.value, 3)} mm"

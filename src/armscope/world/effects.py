@@ -9,6 +9,7 @@ gravity (virtual work), T the temperature, t the time. Lengths hold at 20 C.
 | base_shift | base | x y z mm, rx ry rz rad, time s | base jumps at that time |
 | base_compliance | base | compliance rad/(N m) | springs about base x and y |
 | joint_offset | joint j | offset rad | angle + offset |
+| zero_shift | joint j | jump rad, time s | angle + jump after that time |
 | gear_ratio | joint j | ratio rad/rad | angle + ratio q |
 | gear_eccentricity | joint j | amplitude rad, phase rad, per_turn 1/turn | + amplitude cos(per_turn q - phase); 1, 2 |
 | gear_mesh | joint j | amplitude rad, phase rad, per_turn 1/turn | the same, 5 to 60 |

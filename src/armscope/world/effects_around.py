@@ -21,6 +21,7 @@ from armscope.world.kinds import (
     Scene,
     Values,
     compliance_across,
+    moment,
     only,
 )
 from armscope.world.layout import BASE_FREEDOMS
@@ -57,10 +58,7 @@ def _draw_drift(rng: np.random.Generator, scene: Scene, location: str) -> dict[s
 
 
 def _draw_shift(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
-    """The jump falls between two rows, in the middle half of the session."""
-    time = scene.session.time
-    row = int(rng.integers(len(time) // 4, 3 * len(time) // 4))
-    return {**_draw_twist(rng), "time": float((time[row] + time[row + 1]) / 2)}
+    return {**_draw_twist(rng), "time": moment(rng, scene)}
 
 
 def _hide_shift(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:

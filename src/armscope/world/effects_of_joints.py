@@ -13,6 +13,7 @@ from armscope.world.kinds import (
     CONSTANT,
     LOAD,
     SPEED,
+    TIME,
     Kind,
     Parameter,
     Scene,
@@ -20,6 +21,7 @@ from armscope.world.kinds import (
     compliance_across,
     compliance_for,
     joints,
+    moment,
     number,
     second_number,
 )
@@ -141,6 +143,13 @@ JOINTS: tuple[Kind, ...] = (
         lambda rng, scene, place: {"coupling": float(rng.choice([-1, 1]) * 5e-4)},
         lambda hidden, scene, place, values: _turn_motor(
             hidden, place, values["coupling"] * scene.session.commanded[:, second_number(place)]
+        ),
+    ),
+    Kind(
+        "zero_shift", "", TIME, (Parameter("jump", "rad"), Parameter("time", "s", scales=False)), ("time_s",), joints,
+        lambda rng, scene, place: {"jump": float(rng.choice([-1, 1]) * 5e-4), "time": moment(rng, scene)},
+        lambda hidden, scene, place, values: _turn_motor(
+            hidden, place, np.where(scene.session.time > values["time"], values["jump"], 0.0)
         ),
     ),
 )  # fmt: skip

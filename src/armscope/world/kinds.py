@@ -183,6 +183,13 @@ def only(place: str) -> Callable[[RobotDescription], list[str]]:
     return lambda description: [place]
 
 
+def moment(rng: np.random.Generator, scene: Scene) -> float:
+    """A time (s) between two rows, in the middle half of the session."""
+    time = scene.session.time
+    row = int(rng.integers(len(time) // 4, 3 * len(time) // 4))
+    return float((time[row] + time[row + 1]) / 2)
+
+
 def compliance_for(scene: Scene, torque: float) -> float:
     """A compliance by which ``torque`` turns half a milliradian."""
     return 5e-4 / max(torque, 1e-3)

@@ -26,6 +26,8 @@ ALTERNATIVE_NATS = 5.0
 """A rival whose evidence falls short by less than this is an acceptable answer."""
 D_H_VALUES = ("joint_offset", "link_geometry")
 """Rivals that a geometric calibration fits."""
+MOMENTS = tuple(np.linspace(0.1, 0.9, 17).tolist())
+"""Shares of the rows after which a rival jumps."""
 CURVE_COLUMNS = 3
 """Columns charged for a free curve that stands for an effect outside the library."""
 
@@ -91,7 +93,7 @@ def _base_rivals(patterns: Patterns) -> Iterator[Rival]:
     time = patterns.scene.session.time
     twists = [patterns.of(name) for name in BASE_FREEDOMS]
     yield _rival("base_drift", "base", *(twist * (time / time[-1])[:, None] for twist in twists))
-    for share in np.linspace(0.1, 0.9, 17):
+    for share in MOMENTS:
         after = (time > np.quantile(time, share))[:, None]
         yield _rival("base_shift", "base", *(twist * after for twist in twists))
     yield _rival("base_compliance", "base", patterns.given_way("base rx", "base ry"))
@@ -102,10 +104,13 @@ def _joint_rivals(patterns: Patterns) -> Iterator[Rival]:
     session = scene.session
     chain = scene.chain_angles()
     places = joints(scene.description)
+    later = [(session.time > np.quantile(session.time, share))[:, None] for share in MOMENTS]
     for j, place in enumerate(places):
         turn, angle = patterns.motor_jacobian[:, :, j], session.commanded[:, j]
         torque = scene.torque[:, j]
         yield _rival("joint_offset", place, turn)
+        for after in later:
+            yield _rival("zero_shift", place, turn * after)
         yield _rival("gear_ratio", place, turn * angle[:, None])
         for order in (1, 2):
             yield _rival("gear_eccentricity", place, *_waves(turn, order * angle))

@@ -1,12 +1,12 @@
-"""Moments at which base or tool jumped, found by scanning along the rows of a run."""
+"""Moments at which base, tool or a joint's zero jumped, found by scanning along the rows of a run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.core.types import Indices
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
@@ -18,50 +18,74 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drift import base_shift, tool_shift
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Placed, Term
+from armscope.physics.placing import moving_joints
+from armscope.physics.zero_shift import zero_shift
 from armscope.recordings import Recordings
 
 BUILDS = {"base": base_shift, "tool": tool_shift}
 
 
 def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
-    """The most promising moment at which the base, or the tool, jumped, given each of some hypotheses."""
-    recordings = context.recordings
-    pieces = list(pieces_of(recordings))
-    tried, inside = sum(len(cuts) for _, cuts in pieces), columns_of(given)
-    for location, build in BUILDS.items():
-        best: list[tuple[float, Placed] | None] = [None] * len(given)
-        for rows, cuts in pieces:
-            _, later = context.runs_around(location, str(recordings.run[rows[0]]))
-            sums = step_sums(context, inside, rows, cuts, partial(build, later=later))
+    """The likeliest moment at which base, tool and each joint's zero jumped, if promising, given each hypothesis."""
+    zeros = [f"joint {j}" for j in moving_joints(context.recordings)]
+    for locations in (["base"], ["tool"], zeros):
+        yield from _jumps_at(context, given, locations)
+
+
+def _jumps_at(context: ScanContext, given: Sequence[Hypothesis], locations: Sequence[str]) -> Iterator[Placed]:
+    """The same at some locations, any of which may have jumped: all pay for all of their moments."""
+    pieces, inside = list(pieces_of(context.recordings)), columns_of(given)
+    tried = len(locations) * sum(len(cuts) for _, cuts in pieces)
+    builds = {location: _jump_of(context, location) for location in locations}
+    best: dict[tuple[str, int], tuple[float, int]] = {}
+    for rows, cuts in pieces:
+        terms = {location: build(int(rows[0]), 1).terms for location, build in builds.items()}
+        sums = step_sums(context, inside, rows, cuts, [each for of_one in terms.values() for each in of_one])
+        start = 0
+        for location in locations:
+            own = slice(start, start := start + len(terms[location]))
+            block = ColumnBlocks(sums.own[:, own, own], sums.cross[:, :, own], sums.b[:, own])
             for number, hypothesis in enumerate(given):
-                scores = scores_given(context.problem, hypothesis, sums, inside)
+                scores = scores_given(context.problem, hypothesis, block, inside)
                 at = int(np.argmax(scores))
-                promising = float(scores[at]), build(recordings, int(rows[cuts[at]]), tried, later)
-                best[number] = max((b for b in (best[number], promising) if b), key=lambda entry: entry[0])
-        for found in best:
-            if found is not None and found[0] > SCANS.worth_a_look + np.log(tried):
-                yield found[1]
+                promising = float(scores[at]), int(rows[cuts[at]])
+                best[location, number] = max(best.get((location, number), promising), promising)
+    for (location, _), (score, row) in best.items():
+        if score > SCANS.worth_a_look + np.log(tried):
+            yield builds[location](row, tried)
+
+
+def _jump_of(context: ScanContext, location: str) -> Callable[[int, int], Placed]:
+    """What jumps at a location before a row, by the row and by how many moments compete."""
+    recordings = context.recordings
+    if location not in BUILDS:
+        return lambda row, tried: zero_shift(recordings, row, tried, Location.of(location).number)
+
+    def build(row: int, tried: int) -> Placed:
+        _, later = context.runs_around(location, str(recordings.run[row]))
+        return BUILDS[location](recordings, row, tried, later)
+
+    return build
 
 
 def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> float:
     """Standard error of a jump's row, or time (s): its spread over all moments, each as likely as its evidence says.
 
     Args:
-        placed: a shift of base or tool within a run.
+        placed: a shift of base, tool or a joint's zero within a run.
         context: the rows.
         without: the hypothesis without it.
 
     Returns:
         Rows, or s where times are recorded.
     """
-    _, run, *later = placed.terms[0].products[0].driver.arguments
-    build = partial(BUILDS[placed.location], later=tuple(str(each) for each in later))
-    recordings = context.recordings
+    run = placed.terms[0].products[0].driver.arguments[1]
+    build, recordings = _jump_of(context, placed.location), context.recordings
     for rows, cuts in pieces_of(recordings):
         if str(recordings.run[rows[0]]) != run:
             continue
-        sums = step_sums(context, without.columns, rows, cuts, build)
+        sums = step_sums(context, without.columns, rows, cuts, build(int(rows[0]), 1).terms)
         scores = block_scores(context.problem, without, sums)
         likely = np.exp(scores - scores.max())
         at = rows[cuts]
@@ -91,7 +115,7 @@ def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
 
 
 def step_sums(
-    context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, build: Callable[[Recordings, int, int], Placed]
+    context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, terms: Sequence[Term]
 ) -> ColumnBlocks:
     """Sums over the rows behind each cut, and over those of the later runs in which the step holds.
 
@@ -100,12 +124,11 @@ def step_sums(
         inside: columns of the model against which the steps' are multiplied.
         rows: of a run, in order.
         cuts: positions in that order.
-        build: the step.
+        terms: of the step, wherever it begins.
 
     Returns:
         One block per cut.
     """
-    terms = build(context.recordings, int(rows[0]), 1).terms
     _, _, *later = terms[0].products[0].driver.arguments
     rows = np.concatenate([rows, np.flatnonzero(np.isin(context.recordings.run, [str(each) for each in later]))])
     c, k = len(terms), len(inside)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
 
 import numpy as np
 
@@ -44,7 +43,8 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
     for rows, cuts in pieces:
         run = str(recordings.run[rows[0]])
         earlier, later = context.runs_around("base", run)
-        sums = step_sums(context, drifting.columns, rows, cuts, partial(base_shift, later=later))
+        step = base_shift(recordings, int(rows[0]), 1, later).terms
+        sums = step_sums(context, drifting.columns, rows, cuts, step)
         V = solve_lower(factor, (sums.cross @ way).T)
         alone = np.einsum("mij,i,j->m", sums.own, way, way)
         # two steps have the rows behind the later one in common
