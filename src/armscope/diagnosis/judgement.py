@@ -19,8 +19,6 @@ from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
     SummaryBasis,
     as_far_as_it_carries,
-    rest_of_a_curve,
-    scattered_effects,
     summarise_effect,
     with_weight,
 )
@@ -29,6 +27,7 @@ from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
+from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     masses_in_error,

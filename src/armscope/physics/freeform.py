@@ -217,11 +217,12 @@ UNKNOWN = Effect(
         instruction="Find what it follows; until then store its curve as a correction table.",
     ),
     clauses=(
+        "{location} scatters by {scatter}: play of {play}, if the rows stand in the order in which they were measured",
         "{location} scatters by {scatter} for a reason that the table does not record",
         "something unexplained at {location} follows the {driver}, by up to {reaches}",
         "something unexplained at {location} follows the {driver}",
     ),
-    labels={"scatter": "scatter (1 sigma)"},
+    labels={"scatter": "scatter (1 sigma)", "play": "play, by the order of rows"},
     atlas=_column,
     several=True,
 )

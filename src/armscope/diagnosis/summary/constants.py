@@ -39,6 +39,12 @@ class TellingRules(Constants):
         "times a joint's scatter that a curve must exceed to be told beside it",
         "judgement: less is the scatter's own",
     )
+    play_by_order: float = constant(
+        4.0,
+        "standard errors by which scatter must follow the side of approach that the order of rows tells",
+        "derived: one in 30,000 by chance, of a handful of joints",
+        unit="standard errors",
+    )
     telling_share: float = constant(
         0.7,
         "of a curve's variation that a simple shape must explain to be named",

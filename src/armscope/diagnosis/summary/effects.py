@@ -1,8 +1,8 @@
-"""One named effect with everything that is known about it; and scatter that has a place but no driver."""
+"""One named effect with everything that is known about it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,12 +14,10 @@ from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
-from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
 from armscope.fitting.discrepancy import ModelError
-from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.fitting.refit import Refit
 from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import NormalEquations, projected_rms
@@ -31,9 +29,6 @@ from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Scene
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
-
-NOTHING = "nothing in the table"
-"""What scatter follows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,51 +206,3 @@ def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEf
     geometry = sum(family.share for family in background if family.family == GEOMETRIC and family.present)
     of = found.share if found.family == GEOMETRIC else found.share / max(1 - geometry, 1e-6)
     return replace(found, minor=of < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))
-
-
-def scattered_effects(state: DiagnosisState, variance: float, left: float) -> Iterator[FoundEffect]:
-    """Scatter that has a place but follows nothing in the table.
-
-    Args:
-        state: the finished selection.
-        variance: of the mismatch per axis, mm^2.
-        left: share of it that nothing else explains: scatter is no more, though bad shots may make it look larger.
-
-    Yields:
-        One effect per motor that scatters.
-    """
-    at_fault = [each for each in state.scatter if not each.rounded]
-    moved = motor_jacobians(state.fit.model, state.recordings) if at_fault else np.empty(0)
-    sizes = [each.size * float(np.sqrt(np.mean(moved[each.motor - 1] ** 2))) for each in at_fault]
-    together = sum(rms**2 for rms in sizes)
-    for scattered, rms in zip(at_fault, sizes, strict=True):
-        location = f"joint {scattered.motor}"
-        yield FoundEffect(
-            effect="unknown",
-            location=location,
-            family="unknown",
-            driver=NOTHING,
-            named_as="effect",
-            title=f"scatter at {location} that follows nothing in the table",
-            minor=False,
-            parameters=(Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(moved[0]))),),
-            rms_at_tool_mm=rms,
-            share=rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0,
-            evidence_nats=scattered.evidence,
-            alternatives=(),
-            inclusion=None,
-            curve=None,
-            physics="The joint stands a little elsewhere each time, for a reason that the table does not record.",
-            confirm="Record the side of approach, speed, load and temperature, and repeat one pose many times.",
-            cure="Find what the scatter follows (play, a loose coupling or encoder) before compensating anything.",
-        )
-
-
-def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
-    """Whether scatter is what a free curve at the same joint could not follow."""
-    return any(
-        effect.nameless
-        and effect.location == scatter.location
-        and effect.rms_at_tool_mm > TELLING.rest_of_a_curve * scatter.rms_at_tool_mm
-        for effect in named
-    )

@@ -1,0 +1,123 @@
+"""Scatter that has a place but no driver in the table; and whether the order of its rows says where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
+from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.physics.transmission import BACKLASH
+from armscope.recordings import Recordings
+from armscope.verdict.effects import FoundEffect, Parameter
+
+NOTHING = "nothing in the table"
+"""What scatter follows."""
+REASONLESS = "The joint stands a little elsewhere each time, for a reason that the table does not record."
+
+
+def scattered_effects(state: DiagnosisState, variance: float, left: float) -> Iterator[FoundEffect]:
+    """Scatter that has a place but follows nothing in the table.
+
+    Args:
+        state: the finished selection.
+        variance: of the mismatch per axis, mm^2.
+        left: share of it that nothing else explains: scatter is no more, though bad shots may make it look larger.
+
+    Yields:
+        One effect per motor that scatters.
+    """
+    at_fault = [each for each in state.scatter if not each.rounded]
+    moved = motor_jacobians(state.fit.model, state.recordings) if at_fault else np.empty(0)
+    sizes = [each.size * float(np.sqrt(np.mean(moved[each.motor - 1] ** 2))) for each in at_fault]
+    together = sum(rms**2 for rms in sizes)
+    for scattered, rms in zip(at_fault, sizes, strict=True):
+        location, lever = f"joint {scattered.motor}", moved[scattered.motor - 1]
+        play = _play(state, scattered.motor)
+        yield FoundEffect(
+            effect="unknown",
+            location=location,
+            family="unknown",
+            driver=NOTHING,
+            named_as="effect",
+            title=f"scatter at {location} that follows nothing in the table",
+            minor=False,
+            parameters=(
+                Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(lever))),
+                *([] if play is None else [play]),
+            ),
+            rms_at_tool_mm=rms,
+            share=rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0,
+            evidence_nats=scattered.evidence,
+            alternatives=(),
+            inclusion=None,
+            curve=None,
+            physics=REASONLESS if play is None else f"{REASONLESS} {_by_order(play)}",
+            confirm="Record the side of approach, speed, load and temperature, and repeat one pose many times."
+            if play is None
+            else f"Measure one pose many times, coming to it from both sides of {location}, and write the side into a "
+            f"column approach{scattered.motor} (-1 or +1): play then gets its name, and can be compensated.",
+            cure="Find what the scatter follows (play, a loose coupling or encoder) before compensating anything.",
+        )
+
+
+def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
+    """Whether scatter is what a free curve at the same joint could not follow."""
+    return any(
+        effect.nameless
+        and effect.location == scatter.location
+        and effect.rms_at_tool_mm > TELLING.rest_of_a_curve * scatter.rms_at_tool_mm
+        for effect in named
+    )
+
+
+def sides_by_order(recordings: Recordings, motor: int) -> Array:
+    """From which side a motor came to each row, if rows were measured in the order of their time or number.
+
+    Args:
+        recordings: N rows, in any order.
+        motor: counted from 1.
+
+    Returns:
+        (N,) sign of the motor's motion from the row before in the same run; 0 for the first of a run.
+    """
+    clock = recordings.number if recordings.time is None else recordings.time
+    order = np.lexsort((clock, recordings.run))
+    motion = np.diff(recordings.motor_angles[order, motor - 1], prepend=np.nan)
+    first = np.concatenate([[True], recordings.run[order][1:] != recordings.run[order][:-1]])
+    sides = np.zeros(len(recordings))
+    sides[order] = np.where(first, 0.0, np.sign(motion))
+    return sides
+
+
+def _play(state: DiagnosisState, motor: int) -> Parameter | None:
+    """The gap by which a motor stands apart after motion to either side, where the order of rows shows one clearly.
+
+    Fitted with all else, of which what follows the angle follows the side a little, too.
+    """
+    if state.recordings.approach is not None:
+        return None
+    fit, sides = state.fit, np.zeros(state.recordings.motor_angles.shape)
+    sides[:, motor - 1] = sides_by_order(state.recordings, motor)
+    table = replace(state.recordings, approach=sides)
+    gap = next((placed for placed in BACKLASH.place(fit.model.arm, table) if placed.variant == "approach"), None)
+    if gap is None:
+        return None
+    layout = replace(fit.layout, terms=(*fit.layout.terms, *gap.terms))
+    (sums,) = normal_equations_by_block(layout, fit.model, table, fit.weights, np.zeros(len(table), dtype=np.intp))
+    inverse = np.linalg.inv(sums.G + np.diag(np.append(fit.noise**2 * fit.precision, 0.0)))
+    size, stderr = float(inverse[-1] @ sums.b), fit.noise * float(np.sqrt(inverse[-1, -1]))
+    return Parameter("play", "rad", size, stderr) if size > TELLING.play_by_order * stderr else None
+
+
+def _by_order(play: Parameter) -> str:
+    times = f"{play.value / play.stderr:.0f} times its standard error"
+    return (
+        f"If the rows stand in the order in which they were measured, it is play: after motion to one side the joint "
+        f"stands apart from where it stands after the other by {play.value * 1e3:.2g} mrad, {times}."
+    )

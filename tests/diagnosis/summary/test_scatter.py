@@ -1,0 +1,73 @@
+"""Scatter that follows the side from which a joint came is told as play, where the order of rows shows it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.scatter import sides_by_order
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.sentences import headline
+from tests.diagnosis.planted import one_run, recorded
+from tests.physics.scenes import arm_named
+
+QUICK = Settings(resamples=0, cross_validation=False)
+GAP = 6e-4
+IN_ORDER = "in the order in which they were measured"
+
+
+@pytest.fixture(scope="module")
+def arm() -> Arm:
+    return arm_named("six-axis")
+
+
+def with_play(arm: Arm, gap: float, seed: int) -> Recordings:
+    """Poses one after the other; joint 2 stays behind on each way, and nobody wrote down the side."""
+    table = one_run(arm, 120, seed)
+    motion = np.diff(table.motor_angles[:, 1], prepend=table.motor_angles[0, 1] - 1)
+    stands = table.motor_angles.copy()
+    stands[:, 1] -= np.sign(motion) * gap / 2
+    measured = recorded(arm, replace(table, motor_angles=stands, approach=None), {}, 0.02, seed)
+    return replace(measured, motor_angles=table.motor_angles, time=None)
+
+
+def told(verdict: Diagnosis) -> dict[str, tuple[float, float]]:
+    (effect,) = [each for each in verdict.effects if each.effect == "unknown" and each.location == "joint 2"]
+    return {each.name: (each.value, each.stderr) for each in effect.parameters}
+
+
+def test_play_is_sized_by_the_order_of_rows(arm: Arm) -> None:
+    verdict = diagnose(arm, with_play(arm, GAP, 30), QUICK)
+    value, stderr = told(verdict)["play"]
+    assert abs(value - GAP) < 3 * stderr
+    assert IN_ORDER in verdict.headline
+    assert "approach2" in verdict.effects[0].confirm
+
+
+@pytest.mark.parametrize("other", ["shuffled", "reversed sense"])
+def test_play_is_not_told_where_the_order_of_rows_shows_none(arm: Arm, other: str) -> None:
+    """Rows that somebody sorted say nothing; a joint that runs ahead of its command has no play."""
+    table = with_play(arm, -GAP if other == "reversed sense" else GAP, 30)
+    if other == "shuffled":
+        table = table.rows(np.random.default_rng(1).permutation(len(table)))
+        table = replace(table, number=np.arange(1.0, len(table) + 1))
+    verdict = diagnose(arm, table, QUICK)
+    assert "play" not in told(verdict)
+    assert IN_ORDER not in headline(verdict)
+
+
+def test_sides_follow_the_clock_of_each_run_and_not_where_a_row_stands(arm: Arm) -> None:
+    table = one_run(arm, 6, 1)
+    angles = np.zeros((6, table.motor_angles.shape[1]))
+    angles[:, 1] = [0.3, 0.1, 0.2, 5.0, 5.0, 4.0]
+    table = replace(
+        table, motor_angles=angles, run=np.array(["1"] * 3 + ["2"] * 3), time=np.array([3.0, 1, 2, 4, 5, 6])
+    )
+    assert sides_by_order(table, 2).tolist() == [1, 0, 1, 0, 0, -1]
+    back = np.arange(6)[::-1]
+    assert sides_by_order(table.rows(back), 2).tolist() == [-1, 0, 0, 1, 0, 1]
