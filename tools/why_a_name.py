@@ -34,7 +34,8 @@ from armscope.inference.search import Search
 from armscope.measurement.channel import nuisances
 from armscope.measurement.noise import known_noise
 from armscope.measurement.registry import CHANNELS, supported
-from armscope.physics.backgrounds import FAMILIES, TOLERANCE
+from armscope.physics.backgrounds import FAMILIES
+from armscope.physics.constants import FORM
 from armscope.recordings import read_recordings
 from armscope.report.style import BLUE, GREY, ORANGE, VERMILION, save_figure, styled
 from armscope.robot import load_arm
@@ -191,7 +192,7 @@ def members(found: Selected) -> tuple[list[Member], float]:
             continue
         seen |= set(columns)
         # mm at the tool by 1 mm or 1 mrad
-        unit = np.sqrt(variance[columns]) / family.label(size) / (1e3 * TOLERANCE)
+        unit = np.sqrt(variance[columns]) / family.label(size) / (1e3 * FORM.tolerance)
         beyond = _beyond(at, family.columns, columns, variance)
         for k, term in enumerate(found.space.placed[number].terms):
             words = f"{candidate.location}: {term.name.replace('_', ' ')}"
@@ -287,7 +288,8 @@ def main() -> None:
         return
     found = diagnosed(world())
     values, share = members(found)
-    print(f"D-H values are {share:g} of their tolerance ({1e3 * TOLERANCE:g} mm, {1e3 * TOLERANCE:g} mrad) in this arm")
+    tolerance = f"{1e3 * FORM.tolerance:g}"
+    print(f"D-H values are {share:g} of their tolerance ({tolerance} mm, {tolerance} mrad) in this arm")
     for name, figure in (
         ("evidence", evidence_figure(steps(found))),
         ("family", family_figure(values)),

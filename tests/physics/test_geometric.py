@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.physics.constants import FORM
 from armscope.physics.effect import Part
 from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram
-from armscope.physics.linkage_drivers import FLAT
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
@@ -37,7 +37,7 @@ def test_shares_of_the_rocker_turn_the_forearm_as_the_closed_loop_does(rod: floa
         (_, turn), *_ = PARALLELOGRAM_GEOMETRY.exact(scene, part)  # type: ignore[misc]
         # the columns are its slope: what is left is of second order, most where the linkage is nearly flat
         flattest = np.abs(np.sin(scene.elbow_angle + angle)).min()
-        assert flattest > FLAT
+        assert flattest > FORM.flat
         np.testing.assert_allclose(turn, expected, atol=0.01 * np.abs(expected).max() / flattest)
 
 

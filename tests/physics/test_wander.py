@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.scene import Scene
-from armscope.physics.wander import GROWTH_WAVES, WANDER_WAVES, is_of_rows, link_wander, wander
+from armscope.physics.wander import is_of_rows, link_wander, wander
 
 from .scenes import arm_named, full_table
 
@@ -19,7 +19,7 @@ def timed(time):
 
 def test_all_waves_together_are_as_large_as_is_plausible():
     waves = wander(timed(np.linspace(0.0, 3600.0, 90)), ())
-    assert len(waves) == WANDER_WAVES
+    assert len(waves) == FORM.wander_waves
     assert not any(is_of_rows(wave) for wave in waves)
     sizes = np.array([wave.prior_scale for wave in waves])
     assert np.allclose(np.sqrt(np.sum(sizes**2, axis=0)), [PLAUSIBLE.wander_m] * 3 + [PLAUSIBLE.wander_rad] * 3)
@@ -31,7 +31,7 @@ def test_long_links_grow_as_much_as_is_plausible_the_last_one_moving_the_tool_al
     assert {wave.location for wave in waves} == {f"link {j}" for j in (1, 2, 3, 4, 6)}
     for place in ("link 2", "link 6"):
         sizes = [wave.prior_scale for wave in waves if wave.location == place]
-        assert len(sizes) == GROWTH_WAVES
+        assert len(sizes) == FORM.growth_waves
         assert np.isclose(np.sqrt(np.sum(np.square(sizes))), PLAUSIBLE.growth)
     (along,) = next(wave for wave in waves if wave.location == "link 6").terms[0].products
     assert (str(along.direction.axis), along.factor) == ("tz", 0.153)
@@ -48,7 +48,7 @@ def test_few_rows_have_few_waves():
 
 def test_runs_of_one_set_up_stand_a_little_elsewhere():
     placed = wander(timed(None), (("a", "b"), ("c",)))
-    assert [each.variant for each in placed[WANDER_WAVES:]] == ["run a", "run b"]
+    assert [each.variant for each in placed[FORM.wander_waves :]] == ["run a", "run b"]
 
 
 def test_a_wave_of_rows_leaves_each_runs_mean_to_the_run():

@@ -90,52 +90,64 @@ def cross_validate(
     folds = [int(k) for k in np.unique(split.fold) if 0 < np.count_nonzero(split.fold == k) < len(blocks)]
     if not folds:
         return HeldOut(float("nan"), float("nan")), ()
-    whole, noise = total(blocks), Search.on(problem).empty().noise
-    sets = _steps(best, order)
-    fitted = _readings(problem, sets, best, noise)
-    values = {}
-    for fold in folds:
-        trained = problem.with_equations(whole - total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)]))
-        chosen = _chosen_again(trained, best)
-        readings = [*_readings(trained, sets, best, noise), chosen]
-        values[fold] = fitted_values(problem, readings)
+    sets, noise = _steps(best, order), Search.on(problem).empty().noise
+    own_values = fitted_values(problem, _readings(problem, sets, best, noise))
+    values = {fold: _values_without(fold, problem, blocks, split, best, sets) for fold in folds}
     some = spread_evenly(len(split.of_row), FOLDING.judged_rows)
     split, rows = replace(split, of_row=split.of_row[some]), rows.some(some)
-    errors = _held_out_errors(problem, blocks, split, rows, values)
-    own = rows.residuals(fitted_values(problem, fitted))
+    errors, own = _held_out_errors(problem, blocks, split, rows, values), rows.residuals(own_values)
     fold_of = split.fold[split.of_row]
-    told = np.isin(fold_of, folds) & rows.trusted
-    turns = _rms(errors[:, told], rows.slices.get("orientation", slice(0)))
+    each_fold, tested = [np.flatnonzero(fold_of == fold) for fold in folds], np.isin(fold_of, folds)
+    turns = _rms(errors[:, tested & rows.trusted], rows.slices.get("orientation", slice(0)))
     if "orientation" in rows.slices:
-        frames = [rows.layout.terms[k] for k in problem.space.frames]
-        each_fold = [np.flatnonzero(fold_of == fold) for fold in folds]
-        nominal = own[0, :, POINTS].copy()
-        for told_errors, parts in ((errors, each_fold), (own, [np.arange(len(fold_of))])):
-            told_errors[0, :, POINTS] = placed_by_points(rows, frames, nominal, parts)
-    per_fold = np.array(
-        [_rms(errors[:, told & (fold_of == fold)]) for fold in folds if (told & (fold_of == fold)).any()]
-    )
-    held, held_all = _rms(errors[:, told]), _rms(errors[:, np.isin(fold_of, folds)])
-    spread = per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(held), np.nan)
+        _place_by_points(problem, rows, errors, own, each_fold)
+    held, held_all = _rms(errors[:, tested & rows.trusted]), _rms(errors[:, tested])
+    spread = _spread(errors, [part[rows.trusted[part]] for part in each_fold])
     labels = ["free frames", *[problem.space.candidates[c].label for c in order], "tolerances everywhere"]
-    waterfall = tuple(
-        WaterfallStep(label, float(f), float(h), float(s))
-        for label, f, h, s in zip(labels, _rms(own[:, rows.trusted]), held[:-1], spread[:-1], strict=True)
+    steps = zip(labels, _rms(own[:, rows.trusted]), held[:-1], spread[:-1], strict=True)
+    told = HeldOut(
+        before=float(held[0]),
+        after=float(held[-1]),
+        folds=len(folds),
+        grouped_by=split.grouped_by,
+        before_all_rows=float(held_all[0]),
+        after_all_rows=float(held_all[-1]),
+        spread=float(spread[-1]),
+        turn_before=float(turns[0]),
+        turn_after=float(turns[-1]),
     )
-    return (
-        HeldOut(
-            before=float(held[0]),
-            after=float(held[-1]),
-            folds=len(folds),
-            grouped_by=split.grouped_by,
-            before_all_rows=float(held_all[0]),
-            after_all_rows=float(held_all[-1]),
-            spread=float(spread[-1]),
-            turn_before=float(turns[0]),
-            turn_after=float(turns[-1]),
-        ),
-        waterfall,
-    )
+    return told, tuple(WaterfallStep(label, float(f), float(h), float(s)) for label, f, h, s in steps)
+
+
+def _values_without(
+    fold: int,
+    problem: Problem,
+    blocks: Sequence[NormalEquations],
+    split: RowSplit,
+    best: Hypothesis,
+    sets: Sequence[tuple[SelectedEffect, ...]],
+) -> Array:
+    """What is fitted without a fold's rows: by every step of the waterfall, and by the selection repeated there."""
+    held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
+    trained = problem.with_equations(total(blocks) - held)
+    noise = Search.on(problem).empty().noise
+    return fitted_values(problem, [*_readings(trained, sets, best, noise), _chosen_again(trained, best)])
+
+
+def _place_by_points(
+    problem: Problem, rows: LinearisedRows, errors: Array, own: Array, each_fold: Sequence[Indices]
+) -> None:
+    """Points of the nominal arm are judged by frames that were fitted to points alone, in both kinds of errors."""
+    frames = [rows.layout.terms[k] for k in problem.space.frames]
+    nominal = own[0, :, POINTS].copy()
+    for told, parts in ((errors, each_fold), (own, [np.arange(own.shape[1])])):
+        told[0, :, POINTS] = placed_by_points(rows, frames, nominal, parts)
+
+
+def _spread(errors: Array, each_fold: Sequence[Indices]) -> Array:
+    """(K,) standard deviation of the RMS between folds; NaN for a single one."""
+    per_fold = np.array([_rms(errors[:, part]) for part in each_fold if len(part)])
+    return per_fold.std(axis=0, ddof=1) if len(per_fold) > 1 else np.full(len(errors), np.nan)
 
 
 def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:

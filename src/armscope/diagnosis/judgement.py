@@ -13,7 +13,6 @@ from armscope.diagnosis.held_out import cross_validate
 from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import alternatives, inclusion_frequency, judged_elsewhere
-from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
@@ -27,6 +26,7 @@ from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
+from armscope.diagnosis.summary.rows import told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
@@ -43,12 +43,7 @@ from armscope.inference.detection import averaged_log_odds
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
-from armscope.measurement.constants import WEIGHTS
-from armscope.physics.freeform import held
-from armscope.physics.model import FittedModel
-from armscope.physics.wander import is_of_rows
-from armscope.recordings import Recordings
-from armscope.verdict.diagnosis import Diagnosis, Residuals
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
 from armscope.verdict.schema import (
@@ -56,11 +51,12 @@ from armscope.verdict.schema import (
     Background,
     HeldOut,
     Notice,
-    Orientations,
-    SuspectRow,
     Unexplained,
     WaterfallStep,
 )
+
+UNTESTED = HeldOut(float("nan"), float("nan"))
+"""Where nothing was held out."""
 
 
 def judge(
@@ -78,89 +74,87 @@ def judge(
     Returns:
         The verdict.
     """
-    fit, best, problem = state.fit, state.best, state.problem
-    search = Search.on(problem)
+    fit = state.fit
     progress("weighing alternatives", 0.55)
-    basis = SummaryBasis(
-        state,
-        search,
-        judged_elsewhere(
-            state,
-            alternatives(search, best),
-            rng.spawn(1)[0],
-        ),
-        inclusion_frequency(state, resamples, rng),
-        fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
-        _plain_equations(state),
-        model_error(fit, state.recordings, state.noise.least_mm),
-        doubts(search, best),
-    )
+    basis = _basis(state, resamples, rng)
     variance = basis.equations.least_rss(fit.layout.frames) / max(basis.equations.n, 1.0)
-    shared, of_families = _shares(fit, basis.equations)
-    found = {
-        c.candidate: summarise_effect(basis, c, part, share)
-        for c, part, share in zip(best.chosen, fit.model.parts, shared, strict=True)
-    }
+    found, of_families = _summarised(basis)
     order = sorted(found, key=lambda c: -found[c].share)
-    held_out = HeldOut(float("nan"), float("nan"))
-    waterfall: tuple[WaterfallStep, ...] = ()
-    if cross_validation:
-        progress("validating on held-out rows", 0.75)
-        rows = LinearisedRows(state.point, state.recordings, fit.weights, state.space.layout)
-        held_out, waterfall = cross_validate(problem, state.blocks, state.split, best, order, rows)
+    held_out, waterfall = _validated(state, order, progress) if cross_validation else (UNTESTED, ())
     progress("drawing the atlas", 0.9)
-    background = background_summaries(state, search, basis.equations, of_families)
-    named = [with_weight(found[c], background) for c in order]
+    background = background_summaries(state, basis.search, basis.equations, of_families)
     masses, weights_told = masses_in_error(state, basis.equations, of_families[-1])
+    named = [with_weight(found[c], background) for c in order]
     background = (*background, *masses)
     left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
     scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
-    over = subset_consistency(state)
-    named = [as_far_as_it_carries(e, search.candidate(c), over.get(c)) for c, e in zip(order, named, strict=True)]
+    over, candidate = subset_consistency(state), basis.search.candidate
+    named = [as_far_as_it_carries(e, candidate(c), over.get(c)) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
-    unexplained = _unexplained(state, search, effects, background)
-    told = causes(state, search, dict(zip(order, named, strict=True)), scattered, background)
+    unexplained = _unexplained(state, basis.search, effects, background)
     answer, mismatch = _answer(effects, background, unexplained)
-    separating = next_poses(state, basis.rivals, rng)
-    of_rounding = rounding_mm(state)
+    tool_mm = rounding_mm(state)
+    carefully = [*weights_told, *told_of_rounding(state, tool_mm), *(basis.model_error.notices() if found else ())]
     draft = Diagnosis(
-        arm=fit.model.arm.name,
-        source=state.recordings.source,
-        recordings=state.recordings,
-        rows=len(state.recordings),
-        runs=tuple(str(run) for run in np.unique(state.recordings.run)),
+        **told_of_rows(state),
         answer=answer,
         headline="",
         mismatch=mismatch,
-        noise_mm=float(np.hypot(fit.noise, of_rounding)),
-        noise_source=state.noise.source
-        + ("; it grows with the distance" if state.growth else "")
-        + ("; rounded angles are part of it" if of_rounding else ""),
+        noise_mm=float(np.hypot(fit.noise, tool_mm)),
+        noise_source=_noise_source(state, tool_mm > 0),
         residual_before_mm=float(np.sqrt(variance)),
-        residual_after_mm=_weighted_rms(fit),
-        causes=told,
+        causes=causes(state, basis.search, dict(zip(order, named, strict=True)), scattered, background),
         effects=effects,
         background=together(background),
         background_families=background,
         unexplained=unexplained,
         held_out=held_out,
         waterfall=waterfall,
-        atlas=atlas(fit.layout, fit.model, state.recordings, fit.weights.of_reference),
-        residuals=_residuals(state),
-        suspects=_suspects(state),
-        next_poses=separating,
-        notices=(
-            *state.notices,
-            *_carefully(state),
-            *weights_told,
-            *told_of_rounding(state, of_rounding),
-            *(basis.model_error.notices() if found else ()),
-        ),
-        model=_held(fit.model, state.recordings),
-        orientations=_orientations(state),
+        next_poses=next_poses(state, basis.rivals, rng),
+        notices=(*state.notices, *_carefully(state), *carefully),
     )
     verdict = with_importance(draft, with_weight)
     return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
+
+
+def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> SummaryBasis:
+    """What every effect is told from."""
+    fit, best, search = state.fit, state.best, Search.on(state.problem)
+    return SummaryBasis(
+        state,
+        search,
+        judged_elsewhere(state, alternatives(search, best), rng.spawn(1)[0]),
+        inclusion_frequency(state, resamples, rng),
+        fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
+        _plain_equations(state),
+        model_error(fit, state.recordings, state.noise.least_mm),
+        doubts(search, best),
+    )
+
+
+def _summarised(basis: SummaryBasis) -> tuple[dict[int, FoundEffect], list[float]]:
+    """Every chosen effect by its candidate, and the shares of the families' backgrounds."""
+    fit, chosen = basis.state.fit, basis.state.best.chosen
+    shared, of_families = _shares(fit, basis.equations)
+    found = {
+        c.candidate: summarise_effect(basis, c, part, share)
+        for c, part, share in zip(chosen, fit.model.parts, shared, strict=True)
+    }
+    return found, of_families
+
+
+def _validated(
+    state: DiagnosisState, order: Sequence[int], progress: Progress
+) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
+    """Errors on held-out rows, and the waterfall in the order of the shares."""
+    progress("validating on held-out rows", 0.75)
+    rows = LinearisedRows(state.point, state.recordings, state.fit.weights, state.space.layout)
+    return cross_validate(state.problem, state.blocks, state.split, state.best, order, rows)
+
+
+def _noise_source(state: DiagnosisState, with_rounding: bool) -> str:
+    grows = "; it grows with the distance" if state.growth else ""
+    return state.noise.source + grows + ("; rounded angles are part of it" if with_rounding else "")
 
 
 def _unexplained(
@@ -184,16 +178,6 @@ def _with_weights(
     return tuple(replace(step, minor=n < len(minor) and minor[n]) for n, step in enumerate(waterfall))
 
 
-def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
-    """The model to predict with: its free curves go no farther than they were learned.
-
-    A wander in the order of these rows says nothing of other rows.
-    """
-    background = tuple(p for p in model.background if not is_of_rows(p.placed))
-    parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
-    return replace(model, parts=parts, background=background)
-
-
 def _plain_equations(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = state.fit
@@ -203,11 +187,6 @@ def _plain_equations(state: DiagnosisState) -> NormalEquations:
     return normal_equations_by_block(
         fit.layout, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
     )[0]
-
-
-def _weighted_rms(fit: Refit) -> float:
-    trusted = fit.weights.robust_weight > WEIGHTS.inlier_weight
-    return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
 
 
 def _shares(fit: Refit, equations: NormalEquations) -> tuple[list[float], list[float]]:
@@ -237,41 +216,6 @@ def _answer(
     if unexplained.present:
         return "cannot tell", True
     return "nothing missing", False
-
-
-def _residuals(state: DiagnosisState) -> Residuals:
-    table, fit = state.recordings, state.fit
-    return Residuals(
-        points=fit.model.to_base(table.positions, table.run) * 1e3,
-        before=state.first.points_mm,
-        after=fit.residuals,
-        weight=fit.weights.robust_weight,
-        id=table.id,
-        run=table.run,
-    )
-
-
-def _orientations(state: DiagnosisState) -> Orientations | None:
-    """How well the channel of orientations is explained, where it took part."""
-    for weights in state.fit.weights.of_channels:
-        if weights.channel.name == "orientation":
-            left, before = state.fit.channel_residuals["orientation"], state.first["orientation"]
-            return Orientations(
-                rows=int(np.isfinite(left).all(axis=1).sum()),
-                noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),
-                lever_mm=1e3 * weights.scale,
-                before_mrad=1e3 * float(np.sqrt(np.mean(before[weights.counts] ** 2))),
-            )
-    return None
-
-
-def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
-    fit, table = state.fit, state.recordings
-    relative = fit.weights.robust_weight
-    rows = np.flatnonzero(relative < WEIGHTS.inlier_weight)
-    size = np.linalg.norm(fit.residuals, axis=1)
-    worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
-    return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
 
 
 def _carefully(state: DiagnosisState) -> list[Notice]:

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.physics import elastic, geometric, transmission
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
@@ -26,8 +26,6 @@ SOFT = "soft start"
 FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT)
 MENDED = {GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,)}
 """As what families are told: who mends one of the same, mends the others."""
-TOLERANCE = 1.0e-3
-"""Geometric tolerance of an industrial arm: 1 mm and 1 mrad per D-H value."""
 MASSES = "mass"
 """The family that comes with all that gives way: how wrong stated masses are, in shares."""
 
@@ -47,7 +45,9 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     springs = [*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]
     # what bears no load has no size, and shows nothing
     give = [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
-    constant = [replace(placed, prior_scale=(TOLERANCE,) * len(placed.terms)) for placed in geometric.background(arm)]
+    constant = [
+        replace(placed, prior_scale=(FORM.tolerance,) * len(placed.terms)) for placed in geometric.background(arm)
+    ]
     return {
         GEOMETRIC: constant,
         ELASTIC: give,

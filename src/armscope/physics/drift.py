@@ -11,6 +11,7 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
+from armscope.physics.constants import FORM
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps, in_order_of_time
@@ -19,8 +20,6 @@ from armscope.robot import Arm
 
 OF_RUNS = {"run ": " in ", "in run ": " ", "between runs ": " ", "from run ": " "}
 """How it begins to be told in which runs something is otherwise, and what comes before."""
-LEAST_SPAN_S = 1.0
-FEWEST_ORDERED_ROWS = 20
 
 
 def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...] = AXES) -> tuple[Term, ...]:
@@ -47,10 +46,10 @@ def six_terms(location: str, driver: Driver, per: str = "", axes: tuple[str, ...
 
 
 def _place_drift(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if recordings.time is not None and varies(recordings.time, LEAST_SPAN_S):
+    if recordings.time is not None and varies(recordings.time, FORM.least_span_s):
         start = float(recordings.time[recordings.time == recordings.time].min())
         yield Placed(BASE_DRIFT, "base", six_terms("base", Driver("hours", (start,)), "/h"), (1.0,) * 6, "time")
-    elif len(recordings) >= FEWEST_ORDERED_ROWS:
+    elif len(recordings) >= FORM.fewest_ordered_rows:
         # assumed: rows stand in the order in which they were measured
         terms = six_terms("base", Driver("rows"), "/1000 rows")
         yield Placed(BASE_DRIFT, "base", terms, (1.0,) * 6, "order of rows", variant="rows")

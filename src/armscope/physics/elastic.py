@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import clear_ones
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.load_drivers import static_regressor
@@ -21,12 +21,6 @@ UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
 TWO_AXES = "two axes"
 """The variant of a base's compliance that is not the same about x and y: a pedestal or a machine's bed is not round."""
-TRACE_OF_LOAD = 5e-3
-"""A smaller share of the largest load's variation is a trace: wrists are softer than shoulders, but not so much."""
-SHORTEST_BEAM_M = 0.05
-"""Rows shorter than this have no beam worth bending."""
-MASS_DIRECTIONS_SHARE = 1e-3
-"""Directions of the unknown mass moments that make up less of the torque's variation are left out."""
 
 
 def loaded_joints(scene: Scene) -> list[int]:
@@ -34,7 +28,7 @@ def loaded_joints(scene: Scene) -> list[int]:
     torques = scene.torques
     # a single odd row is no variation
     varies_by = np.ptp(np.quantile(torques, (0.02, 0.98), axis=0), axis=0) if len(torques) > 1 else np.abs(torques[0])
-    return [int(j) for j in np.flatnonzero(varies_by > TRACE_OF_LOAD * varies_by.max(initial=1e-9)) + 1]
+    return [int(j) for j in np.flatnonzero(varies_by > FORM.trace_of_load * varies_by.max(initial=1e-9)) + 1]
 
 
 def _place_joints(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -107,7 +101,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     _, size, directions = np.linalg.svd(spread, full_matrices=False)
     if size[0] < 1e-6:
         return
-    strong = size > MASS_DIRECTIONS_SHARE * size[0]
+    strong = size > FORM.mass_directions_share * size[0]
     for number, (direction, share) in enumerate(zip(directions[strong], size[strong] / size[0], strict=True), start=1):
         load = Driver("regressor", (j, *(float(w) for w in direction)))
         give = _plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
@@ -252,7 +246,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
         step = arm.before[j - 1] if arm.is_modified_dh else arm.behind[j - 1]
-        if np.linalg.norm(step[:3, 3]) < SHORTEST_BEAM_M:
+        if np.linalg.norm(step[:3, 3]) < FORM.shortest_beam_m:
             continue
         flexibility = term(
             "flexibility",

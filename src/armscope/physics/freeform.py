@@ -10,7 +10,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Told
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -23,23 +23,13 @@ from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-SMOOTH_WAVES, SMOOTH_FINE_WAVES = 6.0, 24.0
-"""Waves up to which a free curve's waves are equally likely; beyond, their size falls with the square."""
-KNOTS, CONTEXT_KNOTS = 8, 5
-"""Splines over a load or an angle, and over time or temperature."""
-ROWS_PER_WAVE, ROWS_PER_FINE_WAVE = 7, 20
-FEWEST_WAVES, MOST_WAVES, MOST_FINE_WAVES = 8, 20, 72
-ISOLATED = 0.1
-"""A row this share of a joint's range away from all others tells nothing about what lies between."""
 REST_OF_LOAD = "rest of load"
 """The variant of a curve of load beside the line that it mostly is."""
-SLACK = 1.25
-"""The longest wave spans this many times the range that a joint covers, so that its ends are free; a turn at most."""
 
 
 def waves(recordings: Recordings) -> int:
     """How many waves a free curve gets: what the number of rows carries."""
-    return int(np.clip(len(recordings) // ROWS_PER_WAVE, FEWEST_WAVES, MOST_WAVES))
+    return int(np.clip(len(recordings) // FORM.rows_per_wave, FORM.fewest_waves, FORM.most_waves))
 
 
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
@@ -53,11 +43,11 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     Returns:
         The finer curve in place.
     """
-    count = min(len(recordings) // ROWS_PER_FINE_WAVE, MOST_FINE_WAVES)
-    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= MOST_WAVES:
+    count = min(len(recordings) // FORM.rows_per_fine_wave, FORM.most_fine_waves)
+    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= FORM.most_waves:
         return None
     j = Location.of(curve.location).number
-    return replace(_angle_curve(arm, recordings, j, count, SMOOTH_FINE_WAVES), refinement=True)
+    return replace(_angle_curve(arm, recordings, j, count, FORM.smooth_fine_waves), refinement=True)
 
 
 def held(curve: Placed, recordings: Recordings) -> Placed:
@@ -82,7 +72,7 @@ def held(curve: Placed, recordings: Recordings) -> Placed:
 def _range(values: Array) -> tuple[float, float]:
     """Smallest and largest value, isolated ones left out."""
     inside = np.sort(values)
-    wide = ISOLATED * (inside[-1] - inside[0])
+    wide = FORM.isolated * (inside[-1] - inside[0])
     while len(inside) > 2 and inside[1] - inside[0] > wide:
         inside = inside[1:]
     while len(inside) > 2 and inside[-1] - inside[-2] > wide:
@@ -99,14 +89,14 @@ def _place(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 def _own_angle(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
-        yield _angle_curve(arm, recordings, j, waves(recordings), SMOOTH_WAVES)
+        yield _angle_curve(arm, recordings, j, waves(recordings), FORM.smooth_waves)
 
 
 def _angle_curve(arm: Arm, recordings: Recordings, j: int, count: int, smooth: float) -> Placed:
     trend = [*JOINT_OFFSET.place(arm, recordings), *GEAR_RATIO.place(arm, recordings)]
     terms: list[Term] = [t for placed in trend if placed.location == f"joint {j}" for t in placed.terms]
     shape: list[float] = []
-    longest = min(SLACK * float(np.ptp(recordings.motor_angles[:, j - 1])), 2 * np.pi)
+    longest = min(FORM.slack * float(np.ptp(recordings.motor_angles[:, j - 1])), 2 * np.pi)
     for number in range(1, count + 1):
         terms += wave_terms(j, number if longest == 2 * np.pi else number * 2 * np.pi / longest)
         shape += [1 / (1 + (number / smooth) ** 2)] * 2
@@ -121,7 +111,7 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     flanks = {p.location: p.terms for p in BACKLASH.place(arm, recordings) if p.variant == "load"}
     for j in loaded_joints(scene):
         source = Driver("torque", (j,))
-        bumps = _spline_terms(source, scene.driver(source), motor(j), "rad", KNOTS)
+        bumps = _spline_terms(source, scene.driver(source), motor(j), "rad", FORM.knots)
         linear = drive(scene, j, source)
         terms = (*offsets.get(f"joint {j}", ()), *flanks.get(f"joint {j}", ()), linear, *bumps)
         trends = len(terms) - len(bumps)
@@ -138,7 +128,7 @@ def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
             gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5), plausible=PLAUSIBLE.play_rad)
             bumps = tuple(
                 term(f"at_{n}", "rad", (motor(j), Driver("lost motion", (j, centre, width))))
-                for n, (centre, width) in enumerate(_knots(recordings.motor_angles[:, j - 1], KNOTS))
+                for n, (centre, width) in enumerate(_knots(recordings.motor_angles[:, j - 1], FORM.knots))
             )
             driver = f"side of approach and angle of joint {j}"
             yield _curve(f"joint {j}", (gap, *bumps), [1.0] * len(bumps), driver, "approach", trends=1)
@@ -158,11 +148,11 @@ def _context(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         driver = Driver("hours", (start,)) if source == "hours" else Driver("warmth")
         drives = (values - start) / SECONDS_PER_HOUR if source == "hours" else values - REFERENCE_TEMPERATURE_C
         known = drives[~np.isnan(drives)]
-        knots = _knots(known, CONTEXT_KNOTS)
+        knots = _knots(known, FORM.context_knots)
         base = [t for centre, width in knots for t in six_terms("base", Driver("spline", (driver, centre, width)))]
         yield _curve("base", tuple(base), [1.0] * len(base), name, name)
         for j in moving_joints(recordings):
-            terms = _spline_terms(driver, known, motor(j), "rad", CONTEXT_KNOTS)
+            terms = _spline_terms(driver, known, motor(j), "rad", FORM.context_knots)
             trend = (*offsets.get(f"joint {j}", ()), term("trend", "rad per driver", (motor(j), driver)))
             yield _curve(f"joint {j}", (*trend, *terms), [1.0] * len(terms), name, name, trends=len(trend))
 

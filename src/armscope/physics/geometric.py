@@ -10,10 +10,9 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings, waves_column
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
-from armscope.physics.linkage_drivers import FLAT
 from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import Scene
@@ -24,8 +23,6 @@ from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.parallelogram import forearm_deviation
 
 MILLIMETRE = 1e-3
-PARALLEL_RAD = 1e-2
-"""Two consecutive axes closer than this to parallel need a turn about y, too (Hayati & Mirmirani 1985)."""
 
 
 def row_terms(arm: Arm, j: int) -> dict[str, Term]:
@@ -37,7 +34,7 @@ def row_terms(arm: Arm, j: int) -> dict[str, Term]:
     if arm.description.dh is None:
         twists = {axis: (f"joint {j}", unit) for axis, unit in zip(AXES, np.eye(6), strict=True)}
     else:
-        parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < PARALLEL_RAD
+        parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < FORM.parallel_rad
         kinds = ("a", "alpha", "d", "theta", *(["beta"] if parallel else []))
         twists = {kind: row_twist(arm, j, kind) for kind in kinds}
     return {name: _constant(name, *twist) for name, twist in twists.items()}
@@ -194,11 +191,6 @@ AXIS_WOBBLE = Effect(
 
 
 FOREARM = Direction(f"joint {LINKAGE_JOINT}", "rz")
-STEP_DEG, FINE_STEP_DEG = 3.0, 0.5
-"""Directions of the rocker on the forearm that are tried where robot.yaml does not state them, and then about the best.
-
-At half a coarse step's distance 3 % of the bars' effect are left, which is a slope and would pass for a gear's ratio.
-"""
 
 
 def _place_linkage(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -218,7 +210,7 @@ def is_parallelogram(arm: Arm) -> bool:
 
 def _unstated_bars(scene: Scene) -> list[Placed]:
     """Bars of unknown lengths: errors as shares of the rocker's, at each direction that it may have on the forearm."""
-    return _bars_at(scene, np.arange(0.0, 180.0, STEP_DEG)) if np.ptp(scene.elbow_angle) > 0 else []
+    return _bars_at(scene, np.arange(0.0, 180.0, FORM.rocker_step_deg)) if np.ptp(scene.elbow_angle) > 0 else []
 
 
 def finer_bars(scene: Scene, placed: Placed) -> list[Placed]:
@@ -229,13 +221,16 @@ def finer_bars(scene: Scene, placed: Placed) -> list[Placed]:
     """
     if placed.effect is not PARALLELOGRAM_GEOMETRY or not placed.scanned:
         return []
-    return _bars_at(scene, placed.scanned[0][2] + np.arange(-STEP_DEG, STEP_DEG, FINE_STEP_DEG)[1:])
+    return _bars_at(
+        scene,
+        placed.scanned[0][2] + np.arange(-FORM.rocker_step_deg, FORM.rocker_step_deg, FORM.rocker_fine_step_deg)[1:],
+    )
 
 
 def _bars_at(scene: Scene, angles_deg: Array) -> list[Placed]:
     """Bars with the rocker at each of some angles on the forearm at which no pose holds the linkage flat."""
     angles = np.radians(angles_deg)
-    kept = [n for n, a in enumerate(angles) if np.abs(np.sin(scene.elbow_angle + a)).min() > FLAT]
+    kept = [n for n, a in enumerate(angles) if np.abs(np.sin(scene.elbow_angle + a)).min() > FORM.flat]
     return [
         Placed(
             PARALLELOGRAM_GEOMETRY,

@@ -5,15 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.constants import FORM
 from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.terms import DriverKind
-
-FLAT = 0.1
-"""Sine of the angle between crank and upper arm below which a parallelogram counts as flat.
-
-The columns are exact above it. Least openings of linkages of data sheets are larger (0.2 and more), so that a recorded
-arm should not come near it; it was 0.2 until a simulated arm whose unstated linkage opened less was told wrongly.
-"""
 
 
 def _rod(scene: LoadedArm) -> Array:
@@ -45,7 +39,7 @@ def _crank_to_upper_arm(scene: LoadedArm) -> Array:
 
 def _away_from_zero(values: Array) -> Array:
     """A flat parallelogram has no defined forearm; its neighbourhood must not swamp everything else."""
-    return np.where(np.abs(values) < FLAT, np.where(values < 0, -FLAT, FLAT), values)
+    return np.where(np.abs(values) < FORM.flat, np.where(values < 0, -FORM.flat, FORM.flat), values)
 
 
 BARS: dict[str, DriverKind] = {

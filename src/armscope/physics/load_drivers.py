@@ -7,16 +7,11 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.constants import FORM
 from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.recorded_drivers import recorded
 from armscope.physics.terms import Driver, DriverKind
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
-
-SMALL_SHARE = 1e-3
-"""Of a link's mass, by which slopes are taken: what bends with the load hardly does so here."""
-
-ROUNDING_NM = 1e-9
-"""Torque below which a motor bears no load, on neither side of its gap: what rounding leaves of none."""
 
 
 def _payload(scene: LoadedArm) -> Array:
@@ -77,8 +72,8 @@ def _heavier_by_share(scene: LoadedArm, load: Driver) -> Array:
 
 def _heavier_link(scene: LoadedArm, load: Driver, link: int) -> Array:
     """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
-    change: Array = scene.with_heavier_link(link, SMALL_SHARE).driver(load) - scene.driver(load)
-    return change / SMALL_SHARE
+    change: Array = scene.with_heavier_link(link, FORM.slope_share).driver(load) - scene.driver(load)
+    return change / FORM.slope_share
 
 
 def _regressor(scene: LoadedArm, j: int, *weights: float) -> Array:
@@ -93,7 +88,7 @@ def static_regressor(scene: LoadedArm) -> Array:
 
 def _load_side(scene: LoadedArm, j: int) -> Array:
     torque = _torque(scene, j)
-    return np.where(np.abs(torque) > ROUNDING_NM, np.sign(torque), 0.0)
+    return np.where(np.abs(torque) > FORM.no_torque_nm, np.sign(torque), 0.0)
 
 
 def _soft_start(scene: LoadedArm, j: int, knee: float) -> Array:

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-LEAST_SPAN_K = 0.2
-SHORTEST_M = 0.02
-
 
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not varies(recordings.temperature, LEAST_SPAN_K):
+    if not varies(recordings.temperature, FORM.least_span_k):
         return
     for place, products in growing_links(arm, Driver("warmth")):
         coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
@@ -26,7 +23,7 @@ def growing_links(arm: Arm, driver: Driver) -> Iterator[tuple[str, tuple[Product
     """Links long enough to be seen growing, and how they do, in shares of their length per unit of a driver."""
     for j in range(1, arm.n_joints + 1):
         products = tuple(Product(direction, driver, length) for direction, length in _lengths(arm, j) if length)
-        if sum(abs(product.factor) for product in products) > SHORTEST_M:
+        if sum(abs(product.factor) for product in products) > FORM.shortest_growing_m:
             yield f"link {j}", products
 
 

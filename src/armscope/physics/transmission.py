@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told, swings, waves_column
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
 from armscope.physics.placing import moving_joints, nowhere, varying_columns
@@ -19,15 +19,11 @@ from armscope.robot import Arm
 
 MESH_COUNTS = range(3, 401)
 """Periods per joint turn that are tried for a gear mesh error: a strain wave gear makes two per turn of its motor."""
-ECCENTRIC_WAVES = 2
-"""Waves per turn that an eccentric gear or disc makes; more are a mesh's."""
-LEAST_OTHER_SIDE = 0.03
-"""Share of the rows in which gravity must push to the other side."""
 
 
 def wave_terms(j: int, per_turn: float) -> tuple[Term, Term]:
     """Cosine and sine of motor angle j, ``per_turn`` periods per turn, rad."""
-    size = PLAUSIBLE.eccentricity_rad if per_turn <= ECCENTRIC_WAVES else PLAUSIBLE.mesh_rad
+    size = PLAUSIBLE.eccentricity_rad if per_turn <= FORM.eccentric_waves else PLAUSIBLE.mesh_rad
     return (
         term(f"cosine_{per_turn:g}", "rad", (motor(j), Driver("cosine", (j, per_turn))), plausible=size),
         term(f"sine_{per_turn:g}", "rad", (motor(j), Driver("sine", (j, per_turn))), plausible=size),
@@ -107,7 +103,7 @@ GEAR_ECCENTRICITY = Effect(
 @functools.cache
 def cyclic(j: int, per_turn: int) -> Placed:
     """A wave of motor j, by the effect that makes so many per turn."""
-    return _cyclic(GEAR_ECCENTRICITY if per_turn <= ECCENTRIC_WAVES else GEAR_MESH, j, per_turn, multiplicity=1)
+    return _cyclic(GEAR_ECCENTRICITY if per_turn <= FORM.eccentric_waves else GEAR_MESH, j, per_turn, multiplicity=1)
 
 
 @functools.cache
@@ -152,7 +148,7 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 def is_pulled_both_ways(scene: Scene, j: int) -> bool:
     """Whether motor j (from 1) is loaded from both sides in more than a few of the rows."""
     pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
-    return bool(min(pulled, 1 - pulled) >= LEAST_OTHER_SIDE)
+    return bool(min(pulled, 1 - pulled) >= FORM.least_other_side)
 
 
 BACKLASH = Effect(

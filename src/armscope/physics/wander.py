@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.drift import LEAST_SPAN_S, six_terms
+from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.drift import six_terms
 from armscope.physics.effect import Cure, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps
@@ -18,10 +18,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 WAVE_OF_ROWS = "slow wave of rows"
-WANDER_WAVES, ROWS_PER_WAVE = 6, 12
-"""Half waves of a set-up's slow wander at most, and rows for each of them: what is faster is hardly a set-up's."""
-GROWTH_WAVES = 3
-"""The same of a link's length: castings follow a hall in hours."""
 
 BASE_WANDER = Effect(
     "base_wander",
@@ -50,7 +46,7 @@ def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
     A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
     recorded, else in the order of rows. All waves together, and every run, are as large as is plausible.
     """
-    waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, WANDER_WAVES)]
+    waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, FORM.wander_waves)]
     if any(map(is_of_rows, waves)):
         waves = [_about_runs(wave, recordings) for wave in waves]
     together = [run for runs in set_ups if len(runs) > 1 for run in runs]
@@ -67,7 +63,7 @@ def link_wander(arm: Arm, recordings: Recordings) -> list[Placed]:
     """Links whose lengths change slowly in the order of time: a hall's day, and links that follow it late."""
     waves = [
         _growing(place, products, share, f"wave {k}")
-        for k, driver, share in _waves(recordings, GROWTH_WAVES)
+        for k, driver, share in _waves(recordings, FORM.growth_waves)
         for place, products in growing_links(arm, driver)
     ]
     runs = [str(run) for run in np.unique(recordings.run)]
@@ -88,7 +84,7 @@ def _growing(place: str, products: tuple[Product, ...], share: float, variant: s
 
 def _waves(recordings: Recordings, most: int) -> Iterator[tuple[int, Driver, float]]:
     """Numbers of slow waves, from 1, what they follow, and their shares, whose squares add up to one."""
-    count = min(most, len(recordings) // ROWS_PER_WAVE)
+    count = min(most, len(recordings) // FORM.rows_per_wander_wave)
     along, kind = _clock(recordings)
     if not np.ptp(along) > 0:
         return
@@ -124,6 +120,6 @@ def is_of_rows(placed: Placed) -> bool:
 def _clock(recordings: Recordings) -> tuple[Array, str]:
     """(N,) what orders the rows, and the kind of driver that has waves along it."""
     time = recordings.time
-    if time is not None and np.isfinite(time).all() and varies(time, LEAST_SPAN_S):
+    if time is not None and np.isfinite(time).all() and varies(time, FORM.least_span_s):
         return time, "slow wave"
     return recordings.number, WAVE_OF_ROWS

@@ -36,7 +36,7 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric
-from armscope.physics.backgrounds import TOLERANCE
+from armscope.physics.constants import FORM
 from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
@@ -166,7 +166,7 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
 def _precision(parts: ParameterLayout) -> Array:
     """(p,) prior precisions, SI units; frames are free."""
     precision = np.zeros(len(parts.terms))
-    for columns, size in zip(parts.background, (TOLERANCE, PRIOR, WAVE), strict=True):
+    for columns, size in zip(parts.background, (FORM.tolerance, PRIOR, WAVE), strict=True):
         precision[columns] = size**-2
     return precision
 

@@ -1,0 +1,95 @@
+"""What a verdict holds of the rows and of the model that was fitted to them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.attribution_map import atlas
+from armscope.diagnosis.summary.constants import TELLING
+from armscope.fitting.refit import Refit
+from armscope.measurement.constants import WEIGHTS
+from armscope.physics.freeform import held
+from armscope.physics.model import FittedModel
+from armscope.physics.wander import is_of_rows
+from armscope.recordings import Recordings
+from armscope.verdict.diagnosis import Residuals
+from armscope.verdict.schema import Orientations, SuspectRow
+
+
+def told_of_rows(state: DiagnosisState) -> dict[str, Any]:
+    """What a verdict holds of the rows and of the model fitted to them, whatever is said about it.
+
+    Args:
+        state: the finished selection.
+
+    Returns:
+        Fields of the `Diagnosis` by name.
+    """
+    fit, recordings = state.fit, state.recordings
+    return {
+        "arm": fit.model.arm.name,
+        "source": recordings.source,
+        "recordings": recordings,
+        "rows": len(recordings),
+        "runs": tuple(str(run) for run in np.unique(recordings.run)),
+        "residual_after_mm": _weighted_rms(fit),
+        "atlas": atlas(fit.layout, fit.model, recordings, fit.weights.of_reference),
+        "residuals": _residuals(state),
+        "suspects": _suspects(state),
+        "model": _held(fit.model, recordings),
+        "orientations": _orientations(state),
+    }
+
+
+def _weighted_rms(fit: Refit) -> float:
+    trusted = fit.weights.robust_weight > WEIGHTS.inlier_weight
+    return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
+
+
+def _residuals(state: DiagnosisState) -> Residuals:
+    table, fit = state.recordings, state.fit
+    return Residuals(
+        points=fit.model.to_base(table.positions, table.run) * 1e3,
+        before=state.first.points_mm,
+        after=fit.residuals,
+        weight=fit.weights.robust_weight,
+        id=table.id,
+        run=table.run,
+    )
+
+
+def _orientations(state: DiagnosisState) -> Orientations | None:
+    """How well the channel of orientations is explained, where it took part."""
+    for weights in state.fit.weights.of_channels:
+        if weights.channel.name == "orientation":
+            left, before = state.fit.channel_residuals["orientation"], state.first["orientation"]
+            return Orientations(
+                rows=int(np.isfinite(left).all(axis=1).sum()),
+                noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),
+                lever_mm=1e3 * weights.scale,
+                before_mrad=1e3 * float(np.sqrt(np.mean(before[weights.counts] ** 2))),
+            )
+    return None
+
+
+def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
+    fit, table = state.fit, state.recordings
+    relative = fit.weights.robust_weight
+    rows = np.flatnonzero(relative < WEIGHTS.inlier_weight)
+    size = np.linalg.norm(fit.residuals, axis=1)
+    worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
+    return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
+
+
+def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
+    """The model to predict with: its free curves go no farther than they were learned.
+
+    A wander in the order of these rows says nothing of other rows.
+    """
+    background = tuple(p for p in model.background if not is_of_rows(p.placed))
+    parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
+    return replace(model, parts=parts, background=background)
