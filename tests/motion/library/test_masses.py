@@ -7,7 +7,14 @@ import pinocchio as pin
 import pytest
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.masses import as_a_body, place_masses
+from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.samples.timing import stretches
+from armscope.robot.dynamics import MovingArm
 from tests.motion.moving import moved, robot
 
 OFF_M = np.array([0.0, 0.12, 0.0])
@@ -32,3 +39,46 @@ def test_a_centre_far_off_is_one_cause_and_no_inertia_beside_it() -> None:
     assert found["my"].value == pytest.approx(body.mass * OFF_M[1], rel=0.02)
     low, high = found["my"].interval
     assert low < body.mass * OFF_M[1] < high
+
+
+LOAD_KG, AT_M = 1.5, np.array([0.33, -0.06, 0.09])
+"""In the last joint's frame; the tool point lies at 0.3 m."""
+
+
+@pytest.mark.parametrize("stated", [0.0, 1.2])
+def test_a_loads_columns_are_what_a_body_at_its_place_adds(stated: float) -> None:
+    arm = robot()
+    free = next(each for each in placed_on(arm) if each.cause is catalogue.PAYLOAD and each.width == 4)
+    at_tool = pin.Inertia.FromDynamicParameters(arm.point_load()[20:30])
+    values = LOAD_KG * np.r_[1.0, AT_M]
+    mass = stated + LOAD_KG
+    whole = pin.Inertia(mass, (stated * at_tool.lever + values[1:]) / mass, np.zeros((3, 3)))
+    exact = as_a_body(free, arm, values, stated)
+    assert exact.inertial is not None
+    added = (exact.inertial @ values)[20:30]
+    assert added == pytest.approx(whole.toDynamicParameters() - stated * arm.point_load()[20:30], abs=1e-9)
+    assert as_a_body(free, arm, -values) is free
+
+
+@pytest.mark.parametrize("seed", [3, 5])
+def test_a_load_off_the_flange_is_one_cause(seed: int) -> None:
+    """And not a mass at the tool, moments of the last link, and an inertia."""
+    arm = robot()
+    inertial = arm.inertial.copy()
+    inertial[20:30] += pin.Inertia(LOAD_KG, AT_M, np.zeros((3, 3))).toDynamicParameters()
+
+    def loaded(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return np.asarray(arm.torques(q, dq, ddq, inertial) - rigid)
+
+    motions = moved(arm, seed, loaded, noise=0.01)
+    (cause,) = diagnose_motion(arm, motions, MotionSettings(cutoff=10.0)).verdict.effects
+    assert (cause.effect, cause.location) == ("payload_error", "payload")
+    found = {each.name: each for each in cause.parameters}
+    assert found["mass"].value == pytest.approx(LOAD_KG, rel=0.03)
+    for name, value in zip(("mx", "my", "mz"), LOAD_KG * AT_M, strict=True):
+        assert found[name].value == pytest.approx(value, abs=0.03 * LOAD_KG)
+
+
+def placed_on(arm: MovingArm) -> list[PlacedCause]:
+    seen = seen_in(arm, list(stretches(moved(arm, 3, runs=2))), LIBRARY.still_rad)
+    return list(place_masses(seen))

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY, NOISE
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
@@ -13,7 +14,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.library.masses import at_its_place
+from armscope.motion.library.masses import as_a_body, at_its_place
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""
@@ -25,7 +26,7 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
     placed = list(layout.placed)
     for number in selected.best.candidates:
         cause, columns = placed[number], layout.columns[number]
-        if cause.cause is catalogue.LINK_CENTRE:
+        if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
             exact, rests = _exact(selected, number)
             placed[number], moved = exact, moved or not rests
             continue
@@ -50,14 +51,37 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
         moved = moved or not rests
+    for number in set(range(len(placed))) - selected.best.candidates:
+        if is_anywhere(placed[number]):  # not chosen, it competes with what is chosen in its place
+            placed[number] = as_a_body(placed[number], layout.arm, *carried_in(selected, placed[number]))
     return replace(layout, placed=tuple(placed)) if moved else None
 
 
+def is_anywhere(cause: PlacedCause) -> bool:
+    """Whether it is a load that may sit anywhere on the last link."""
+    return cause.cause is catalogue.PAYLOAD and cause.width > 1
+
+
+def carried_in(selected: SelectedCauses, load: PlacedCause) -> tuple[Array, float]:
+    """(4,) mass and moments that the chosen causes add to the last link where a load is, and kg stated there."""
+    rows, added = selected.rows, np.zeros(4)
+    for number in selected.best.candidates:
+        cause, columns = rows.layout.placed[number], rows.layout.columns[number]
+        if cause.inertial is not None and (not cause.runs or set(cause.runs) == set(load.runs)):
+            added += (cause.inertial @ selected.coefficients[columns])[-10:-6]
+    there = [each.signals for each in rows.samples if not load.runs or each.signals.run in load.runs]
+    stated = [np.zeros(1) if each.payload is None else np.nan_to_num(each.payload) for each in there]
+    return added, float(np.mean(np.concatenate(stated))) if stated else 0.0
+
+
 def _exact(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
-    """A moved centre with the square of its moments, and whether that was in its columns already, within errors."""
+    """A moved centre or a load as bodies have it, and whether that was in its columns already, within errors."""
     layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
     cause, values = layout.placed[number], selected.coefficients[columns]
-    exact = at_its_place(cause, layout.arm, values)
+    if cause.cause is catalogue.LINK_CENTRE:
+        exact = at_its_place(cause, layout.arm, values)
+    else:
+        exact = as_a_body(cause, layout.arm, *carried_in(selected, cause))
     assert cause.inertial is not None
     assert exact.inertial is not None
     error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]

@@ -9,7 +9,7 @@ from armscope.verdict.effects import UNKNOWN
 
 FRICTION, DRIVE, MASSES, SPRINGS = "friction", "drive", "masses", "springs"
 
-_MOMENTS = {f"m{axis}": f"mass × {axis}, in its frame" for axis in "xyz"}
+_MOMENTS = {f"m{axis}": f"mass × {axis}, in the joint's frame" for axis in "xyz"}
 
 COULOMB = Cause(
     "coulomb_friction",
@@ -44,8 +44,10 @@ ROTOR = Cause(
 OFFSET = Cause(
     "torque_offset",
     DRIVE,
-    "The recorded torque is off by a constant.",
-    "Turn the joint slowly either way: the mean of the two torques, less gravity's, is the offset.",
+    "The recorded torque is off by a constant, or dry friction differs by the direction of motion: while a joint moves "
+    "these are the same torque.",
+    "Turn the joint slowly either way: the mean of the two torques, less gravity's, is the offset. What is still read "
+    "with the drive off is the sensor's, the rest is friction's.",
     "Subtract the offset from the recorded torque.",
     clause=clauses.offset_clause,
     remedy=remedies.off_the_recording,

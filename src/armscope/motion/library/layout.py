@@ -133,6 +133,14 @@ class TorqueLayout:
         last = max((int(columns[-1]) for columns in self.columns), default=0)
         return max(last, int(self.response[0])) + 1
 
+    @functools.cached_property
+    def reach(self) -> float:
+        """How far the tool point is from the first moving link's axis along the stretched arm, m."""
+        of_links = (
+            np.linalg.norm(self.arm.model.jointPlacements[j].translation) for j in range(2, self.arm.model.njoints)
+        )
+        return float(sum(of_links)) + float(np.linalg.norm(self.arm.point_load()[-9:-6]))
+
     @property
     def inertial_scale(self) -> Array:
         """(10 n,) kg, kg m, kg m^2 of each link: its mass, mass x length, mass x length^2."""

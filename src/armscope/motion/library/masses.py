@@ -35,7 +35,7 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
             yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
     if arm.n_links > 1:
-        yield from _payloads(seen, identity[:, -10:-6])
+        yield from _payloads(seen, _of_a_load(arm, arm.point_load()[-10:-6]))
         yield from _gravity(seen, tuple(range(arm.n_motors)))
 
 
@@ -59,6 +59,41 @@ def at_its_place(placed: PlacedCause, arm: MovingArm, values: Array) -> PlacedCa
     inertial = np.zeros((len(arm.inertial), len(axes)))
     inertial[own] = moved_centre(arm.inertial[own], by)[:, axes]
     return replace(placed, inertial=inertial)
+
+
+def as_a_body(placed: PlacedCause, arm: MovingArm, values: Array, stated: float = 0.0) -> PlacedCause:
+    """A load anywhere on the last link, with the inertia that a body of its mass has at its place.
+
+    Args:
+        placed: of `catalogue.PAYLOAD`, with its mass and moments.
+        arm: the arm as stated.
+        values: (4,) its mass, kg, and moments, kg m.
+        stated: kg at the tool point, besides.
+
+    Returns:
+        It, with other columns; itself where what is carried has no mass, or where the motion tells no mass.
+    """
+    axes = [("mass", "mx", "my", "mz").index(name) for name, _ in placed.parameters]
+    if 0 not in axes or stated + values[0] <= 0:
+        return placed
+    return replace(placed, inertial=_of_a_load(arm, values, stated)[:, axes])
+
+
+def _of_a_load(arm: MovingArm, values: Array, stated: float = 0.0) -> Array:
+    """(10 n, 4) inertial parameters per kg and kg m of a load of such mass and moments, beside one at the tool point.
+
+    Its inertia goes with the square of its place; about its own centre it is taken to have none. Without that, a load
+    off the flange was told as a mass at the tool, moments of the last link and an inertia.
+    """
+    before, found = stated * arm.point_load()[-10:-6], np.zeros((len(arm.inertial), 4))
+    found[-10:-6] = np.eye(4)
+    at, weight = np.polynomial.legendre.leggauss(8)
+    for share, part in zip((at + 1) / 2, weight / 2, strict=True):  # the change is the mean slope, along with the load
+        body = np.array([*(before + share * values), *np.zeros(6)])
+        slope = moved_centre(body)[4:]
+        found[-6:, 1:] += part * slope
+        found[-6:, 0] -= part * slope @ body[1:4] / (2 * body[0])
+    return found
 
 
 def _inertial(

@@ -102,7 +102,8 @@ def as_stated_and(fitted: Fitted) -> str:
     """A load's mass, and its mass times its centre's place."""
     numbers = fitted.numbers
     told = ", ".join(f"{_SAID.get(name, name)} {amount(value, sign=True)}" for name, value in numbers.items())
-    where = " in the last link's frame" if len(numbers) > 1 else ""
+    where = " in the last joint's frame (z is its axis; of standard D-H rows: before d, a, alpha)"
+    where = where if len(numbers) > 1 else ""
     return f"{fitted.in_general}: as stated and {told}{where}."
 
 

@@ -17,6 +17,7 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import Weighed, agreement
+from armscope.motion.fitting.refining import carried_in, is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, chosen
 from armscope.motion.fitting.space import build_space
@@ -52,7 +53,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
 
 def _impossible(selected: SelectedCauses) -> Iterator[int]:
     """Friction or rotors below zero, the stated part counted in, by more than two standard errors; links that swing;
-    gains that no drive has.
+    gains that no drive has; loads that are no body.
 
     A link that swings on its drive more slowly than its motor moves is not where motor and torque put it.
     """
@@ -70,11 +71,24 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
         elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-        if np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error):
+        below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
+        if below or (is_anywhere(placed) and _no_body(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
             yield number  # no link follows a motor that moves to and fro faster than it swings itself
     yield from _in_place_of_friction(selected)
+
+
+def _no_body(selected: SelectedCauses, number: int) -> bool:
+    """Whether a load that may sit anywhere has no mass, or its centre farther from the last joint than the arm is long.
+
+    Moments of the last link, moved by errors of the other masses, are no load.
+    """
+    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
+    if placed.parameters[0][0] != "mass":
+        return True
+    mass, *moments = selected.coefficients[layout.columns[number]]
+    return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + carried_in(selected, placed)[1]))
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
