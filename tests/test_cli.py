@@ -107,6 +107,26 @@ def test_a_link_that_leads_nowhere_is_no_spelling_mistake(target, tmp_path):
     assert f"a link to {tmp_path / target}, where no file is" in str(error)
 
 
+@pytest.mark.parametrize(
+    ("there", "asked", "meant"),
+    [
+        ("recordings.csv.gz", "recordings.csv", "recordings.csv.gz"),
+        ("recordings.csv", "recordings.cvs", "recordings.csv"),
+        ("recordings.csv", "recodings.csv", "recordings.csv"),
+        ("other.txt", "recordings.csv", None),
+    ],
+)
+def test_a_file_that_is_not_there_is_likened_to_one_beside_it(there, asked, meant, tmp_path):
+    (tmp_path / there).touch()
+    told = str(error_of("check BAD", BAD=tmp_path / asked))
+    assert (f"{meant}'?" in told) if meant else ("Did you mean" not in told)
+
+
+def test_an_arm_of_the_library_with_a_slip_in_its_name_is_told(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    assert "Did you mean 'ur5e'?" in str(error_of("check RECORDINGS --robot ur5ee"))
+
+
 @pytest.mark.parametrize("line", FOLDER_READERS)
 def test_a_folder_that_is_none_is_named(line, tmp_path):
     error = error_of(line, BAD=tmp_path / "nowhere", OUT=tmp_path / "out")

@@ -138,3 +138,12 @@ def test_every_path_a_command_takes_is_an_input_or_an_output_and_those_that_writ
     for each in commands:
         names = set(inspect.signature(each.callback).parameters)
         assert ("output" in names or "figure" in names or "visible" in names) == ("force" in names), each.callback
+
+
+def test_an_output_by_a_link_that_leads_nowhere_says_which_link(tmp_path):
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "gone").symlink_to("nowhere-at-all/out")
+    for place in ("loop", "loop/out"):
+        told = refused("folder", "-o", tmp_path / place, "a")
+        assert "is a link to loop, which leads to itself: remove it" in told
+    assert {path.name for path in tmp_path.iterdir()} == {"loop", "gone"}

@@ -87,12 +87,24 @@ def complaint(file, **options):
                 ("12°", "Write the number alone"),
                 ("\N{MINUS SIGN}12.5", "as a hyphen"),
                 ("[mm]", "holds units, remove it"),
-                ("#REF!", "Correct it, or remove the row"),
+                ("#REF!", "formula of the spreadsheet"),
+                ("01.Mrz", "took a number for a date"),
+                ("1-Mar", "took a number for a date"),
+                ("1.25D+02", "exponent with E"),
+                ("2024-05-01T10:00:00", "Write seconds"),
+                ("３.５", "Correct it, or remove the row"),
                 ("0x1F", "Correct it, or remove the row"),
             )
         ),
         pytest.param("name: arm\na: [1, 2, 3]\n", ["row 2", "3 values", "the right file"], id="no table at all"),
         pytest.param("sep=,\n" + table(*ROWS), ["line 1", "sep=,", "Remove this line"], id="a spreadsheet's own line"),
+        pytest.param("\n".join(ROWS), ["line 1", "numbers", "Write a line q1_rad"], id="no names at all"),
+        pytest.param('[{"q1_rad": 0.1, "q2_rad": 0.2}]', ["line 1", "JSON", "Save it as CSV"], id="JSON"),
+        pytest.param("<table><tr><td>0.1", ["line 1", "HTML or XML", "Save it as CSV"], id="HTML"),
+        pytest.param(table(*ROWS).replace(",", "   "), ["line 1", "by commas", "armscope init"], id="blanks"),
+        pytest.param(table(*ROWS, header=HEADER.replace(",", "','").join("''")), ["Remove the quotes"], id="quotes"),
+        pytest.param(table(*ROWS).replace("_rad", " [rad]"), ["'q1 [rad]'", "call it q1_rad"], id="units in brackets"),
+        pytest.param(table(*ROWS).replace("q1_rad", "J1").replace("q2_rad", "J2"), ["'J1'", "call it q1_rad"], id="J1"),
         pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
         pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
         pytest.param(changed(1, "x_mm", "1.5e7"), ["row 3", "x_mm", "10 km"], id="beyond any instrument"),
@@ -207,3 +219,33 @@ def test_nothing_of_this_touches_a_good_table(tmp_path):
     good = read_recordings(write(tmp_path, table(*ROWS)))
     assert len(good) == 3
     assert np.allclose(good.positions[0], [0.1, 0.2, 0.3])
+
+
+def test_a_table_whose_motors_are_counted_from_zero_is_told_so(tmp_path):
+    text = table(*ROWS).replace("q1_rad", "q0_rad").replace("q2_rad", "q1_rad")
+    assert "call q0_rad q1_rad" in complaint(write(tmp_path, text), n_motors=2)
+
+
+def test_utf_16_without_its_mark_is_told_what_it_is(tmp_path):
+    assert "Save it as UTF-8" in complaint(write(tmp_path, table(*ROWS), encoding="utf-16-le"))
+
+
+def test_a_column_with_a_slip_is_kept_and_said_to_be_like_a_known_one(tmp_path):
+    header = HEADER + ",temprature_c,payload,colour"
+    rows = [f"{row},20,1,red" for row in ROWS]
+    (note,) = read_recordings(write(tmp_path, table(*rows, header=header))).notes
+    assert "temprature_c (did you mean temperature_c?)" in note
+    assert "payload (did you mean payload_kg?)" in note
+    assert note.endswith("colour")
+    rows = [f"{row},1" for row in rows]
+    both = read_recordings(write(tmp_path, table(*rows, header=header + ",payload_kg"))).notes[0]
+    assert "payload_kg" not in both, "it is there"
+
+
+@pytest.mark.parametrize(
+    ("numbers", "cure"),
+    [("2,0,0,0", "divide all four by it"), ("0,10,20,170", "Euler angles"), ("0,0,0,0", "leave all four empty")],
+)
+def test_four_numbers_that_are_no_quaternion_are_told_what_they_may_be(tmp_path, numbers, cure):
+    rows = [f"{row},{numbers}" for row in ROWS]
+    assert cure in complaint(write(tmp_path, table(*rows, header=HEADER + ",qw,qx,qy,qz")))

@@ -24,6 +24,7 @@ from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
+from armscope.recordings.columns import counted_from_zero
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.sentences import ANOTHER_MODEL
@@ -62,7 +63,8 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     """Try the common mistakes on a table."""
     if recordings.n_motors != arm.n_motors:
         statement = f"the table has {recordings.n_motors} motor angles, {arm.name} has {arm.n_motors} motors"
-        wrong = Suspicion("problem", statement, "Is this the right robot for the recordings?")
+        cure = "" if recordings.extra is None else counted_from_zero(map(str, recordings.extra.columns))
+        wrong = Suspicion("problem", statement, cure or "Is this the right robot for the recordings?")
         return Consistency(float("nan"), _spread(recordings), 0, (wrong,))
     some = _spread_evenly(recordings)
     rows = set_up(arm, some)

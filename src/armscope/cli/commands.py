@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import functools
 import inspect
 import math
@@ -16,7 +17,7 @@ import typer
 from typer.core import TyperCommand
 
 from armscope.cli.endings import plain_words, told_to_end
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import InputError
 from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
 from armscope.core.streams import is_stream
@@ -24,6 +25,8 @@ from armscope.core.streams import is_stream
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
+ALIKE, SOMEHOW_ALIKE = 0.7, 0.5
+"""Likeness (0 to 1) from which a name is taken for a misspelt one: any, and one with the same ending."""
 WORKBOOKS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]
@@ -142,12 +145,30 @@ def _refuse_absent(paths: list[Path], hint: Any) -> None:
     """
     for path in paths:
         needed = next((each.help for each in getattr(hint, "__metadata__", ()) if hasattr(each, "help")), None)
-        beside = [each.name for each in path.parent.glob(f"*{path.suffix}")]
-        alike = nearest(path.name, beside)
-        cure = alike if alike.startswith("Did") else "No such file or directory."
+        alike = _named_like(path)
+        cure = f"Did you mean {alike!r}?" if alike else "No such file or directory."
         if path.is_symlink():
             cure = f"It is a link to {os.readlink(path)}, where no file is."
         raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
+
+
+def _named_like(path: Path) -> str:
+    """What a file that is not there may be a misspelling of: packed, a file beside it, an arm of the library; or ""."""
+    beside = [each.name for each in path.parent.glob("*")] if path.parent.is_dir() else []
+    if f"{path.name}.gz" in beside:
+        return f"{path}.gz"
+    own = [name for name in beside if Path(name).suffix == path.suffix]
+    arms = [] if path.suffix or len(path.parts) > 1 else _arms_of_library()
+    for known, likeness in ((arms, ALIKE), (own, SOMEHOW_ALIKE), (beside, ALIKE)):
+        if found := difflib.get_close_matches(path.name, known, 1, likeness):
+            return found[0]
+    return ""
+
+
+def _arms_of_library() -> list[str]:
+    from armscope.robot.library import nominal_names
+
+    return list(nominal_names())
 
 
 def _refuse_workbooks(paths: list[Path]) -> None:

@@ -55,8 +55,7 @@ def writable(folder: Path | str, *names: str) -> Path:
         with tempfile.TemporaryFile(dir=folder):
             return folder
     except OSError as error:
-        rule = f"output goes into this folder ({error.strerror})"
-        raise InputError(folder, "", "no folder that can be written to", rule) from error
+        raise outputs.unwritable(folder, error) from error
 
 
 def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a table (CSV)") -> pd.DataFrame:

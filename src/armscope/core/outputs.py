@@ -39,6 +39,19 @@ def readable(path: Path | str) -> Path:
     return Path(path) if made is None else made
 
 
+def unwritable(folder: Path | str, error: OSError | None = None) -> InputError:
+    """That nothing can be written into a folder, and why: a link that leads to itself or nowhere, or what was told."""
+    chain = [path for path in (Path(folder), *Path(folder).parents) if path.is_symlink()]
+    broken = next((path for path in chain if not path.exists()), None)
+    cure = ""
+    if broken is not None:
+        to = os.readlink(broken)
+        ends = "to itself" if (broken.parent / to).is_symlink() else "nowhere"
+        cure = f"{broken} is a link to {to}, which leads {ends}: remove it."
+    told = "" if error is None or cure else f" ({error.strerror})"
+    return InputError(folder, "", "no folder that can be written to", f"output goes into this folder{told}", cure)
+
+
 class Result:
     """The files of one output (a folder or a file and what stands beside it).
 
@@ -78,8 +91,7 @@ class Result:
             self._forget_folders()
             if error.errno in OF_THE_DISK:
                 raise
-            rule = f"output goes into this folder ({error.strerror})"
-            raise InputError(self.home, "", "no folder that can be written to", rule) from error
+            raise unwritable(self.home, error) from error
         tidy(self.home, self.key)
 
     def name_of(self, path: Path) -> str | None:
@@ -227,7 +239,7 @@ class Delivery:
                     for name in sorted({*names, *result.own()}):
                         result.check(name, self._inputs, self.force)
                 elif not result.is_new:
-                    raise InputError(folder, "", "no folder that can be written to", "output goes into this folder")
+                    raise unwritable(folder)
                 return True
         return False
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,31 +21,10 @@ from armscope.recordings.columns import (
     column_named,
 )
 from armscope.recordings.textfile import WORDS
+from armscope.recordings.wrong_cells import how_to_mend, how_to_scale
 
 if TYPE_CHECKING:
     import pandas as pd  # slow to import, and many a table is refused by its first line
-
-
-NUMBER_AND_UNIT = re.compile(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?\s*[^\W\d_]+|[-+]?[0-9.]+\s*[°%]")
-THOUSANDS = re.compile(r"[-+]?[0-9]{1,3}(['’ \u00a0\u202f_][0-9]{3})+([.,][0-9]+)?|[-+]?[0-9]{1,3}(,[0-9]{3})+\.[0-9]+")
-UNIT = re.compile(r"[\[(]?(mm|cm|m|rad|deg|°|s|kg|n ?m|°?c|degc|rad/s|-)?[\])]?", re.IGNORECASE)
-
-
-def _number_cure(word: str, column: str) -> str:
-    """How to mend a word that stands where a number must."""
-    if word == column:
-        return "The header stands here a second time: remove this line."
-    if UNIT.fullmatch(word):
-        return "If this line holds units, remove it: a column's name says its unit."
-    if THOUSANDS.fullmatch(word):
-        return "Write it without signs between thousands, and with a decimal point."
-    if "," in word:
-        return "Use a decimal point."
-    if NUMBER_AND_UNIT.fullmatch(word):
-        return "Write the number alone: a column's name says its unit."
-    if word.startswith(("−", "–")):
-        return "Write the minus as a hyphen (-)."
-    return "Correct it, or remove the row."
 
 
 class ColumnReader:
@@ -69,7 +47,7 @@ class ColumnReader:
             wrong = np.flatnonzero(parsed.isna() & values.notna())
             if len(wrong):
                 found = values.iloc[wrong[0]]
-                cure = _number_cure(str(found).strip(), column)
+                cure = how_to_mend(str(found).strip(), column)
                 raise self._error(int(wrong[0]), column, str(found), "this must be a number", cure)
             values = parsed
         numbers = values.to_numpy(dtype=float)
@@ -186,7 +164,7 @@ class ColumnReader:
                 "qw ... qz",
                 quaternion[wrong[0]].tolist(),
                 "a quaternion has length 1",
-                f"Its length is {norm[wrong[0]]:.4g}.",
+                how_to_scale(quaternion[wrong[0]]),
             )
         unit: Array = quaternion / norm[:, None]
         return unit

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import LONGEST_NAME, InputError, nearest
 from armscope.core.types import Array
 from armscope.recordings.first_lines import is_motion
 
@@ -26,6 +27,9 @@ LARGEST_NUMBER = 1e15
 """No recorded quantity reaches it in its unit; what lies beyond stands for no value, or overflows when squared."""
 
 ABSOLUTE_ZERO_C = -273.15
+
+ALIKE = 0.75
+"""Likeness (0 to 1) from which a column that is not known is taken for a misspelt one: "payload" for "payload_kg"."""
 
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
 QUATERNION = ["qw", "qx", "qy", "qz"]
@@ -150,6 +154,19 @@ def as_in_contract(headers: Iterable[str]) -> Mapping[str, str]:
     return renamed
 
 
+def name_meant_by(header: str) -> str:
+    """The column of the contract that a header is a misspelling of; "" for none."""
+    number = re.search(r"[1-9]\d*", header)
+    names = [column.name.replace("{j}", number[0] if number else "1") for column in COLUMNS]
+    return next(iter(difflib.get_close_matches(header.strip().lower()[:LONGEST_NAME], names, 1, ALIKE)), "")
+
+
+def counted_from_zero(headers: Iterable[str]) -> str:
+    """What to do about a table whose motors are counted from 0; "" where they are not."""
+    zero = next((header for header in headers if re.fullmatch(r"q0_(?:rad|deg)", header)), None)
+    return f"Motors are counted from 1, nearest the base: call {zero} q1{zero[2:]}, and so on." if zero else ""
+
+
 class Names:
     """The columns that a table has, by its first line.
 
@@ -183,7 +200,7 @@ class Names:
         found = {int(m[1]): m[0] for m in matches if m}
         count = n_motors if n_motors is not None else max(found, default=0)
         if count == 0:
-            cure = nearest("q1_rad", self.columns)
+            cure = self._how_to_name_angles()
             raise self._error("no column q1_rad", "motor angles stand in q1_rad, q2_rad, ... (or _deg)", cure)
         for motor in range(1, count + 1):
             self.check_one_unit(f"q{motor}_rad", f"q{motor}_deg")
@@ -191,11 +208,23 @@ class Names:
                 fewer = sorted(found) == list(range(1, motor))
                 cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
                 cure = cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.columns)
+                cure = counted_from_zero(self.columns) or cure
                 raise self._error(f"no column q{motor}_rad", f"the arm has motors q1 ... q{count}", cure)
         if max(found) > count:
             cure = "Is this the right robot for the recordings?"
             raise self._error(found[max(found)], f"the arm has {count} motors", cure)
         return [found[motor] for motor in range(1, count + 1)]
+
+    def _how_to_name_angles(self) -> str:
+        """What to do about a table of whose columns none is called as a motor's angle."""
+        numbered = [name for name in self.columns if re.fullmatch(r"\s*[A-Za-z]\w*?_?1(?!\d).*", name)]
+        like_q1 = [name for name in numbered if not re.match(r"\s*(tau|current|d+q|f|approach)_?1", name.lower())]
+        if not like_q1:
+            return nearest("q1_rad", self.columns)
+        return (
+            f"If {like_q1[0].strip()!r} is motor 1's angle, call it q1_rad or q1_deg: the unit stands in the name. "
+            "`armscope init` drafts a mapping for a whole table."
+        )
 
     def positions(self, measured: bool) -> list[str]:
         """The columns of measured points; none where there are none and they need not be ``measured``.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
 from armscope.recordings.column_reader import ColumnReader
-from armscope.recordings.columns import Names, as_in_contract, column_named
+from armscope.recordings.columns import Names, as_in_contract, column_named, name_meant_by
 from armscope.recordings.textfile import read_text_table
 
 if TYPE_CHECKING:
@@ -209,6 +209,13 @@ def as_recordings(
     )
     reader.check_duplicates(recordings.id)
     unknown = [name for name in table.columns if column_named(str(name)) is None]
-    told = [f"columns kept but not used: {', '.join(map(str, unknown))}"] if unknown else []
+    likened = [_with_likeness(str(name), table.columns) for name in unknown]
+    told = [f"columns kept but not used: {', '.join(likened)}"] if unknown else []
     told += [f"columns read as {', '.join(renamed.values())}: {', '.join(renamed)}"] if renamed else []
     return replace(recordings, extra=table[unknown] if unknown else None, notes=tuple(told))
+
+
+def _with_likeness(name: str, there: Iterable[str]) -> str:
+    """A column that is not known, with the one that it may be a misspelling of, unless that is there, too."""
+    meant = name_meant_by(name)
+    return f"{name} (did you mean {meant}?)" if meant and meant not in there else name

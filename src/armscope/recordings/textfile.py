@@ -5,7 +5,6 @@ from __future__ import annotations
 import codecs
 import csv
 import io
-import re
 import zlib
 from collections.abc import Callable
 from itertools import pairwise
@@ -16,6 +15,7 @@ from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
 from armscope.core.plainyaml import CONTROL
 from armscope.recordings.opening import GZIP, open_text, refuse_other_than_text, start_of, undecodable
+from armscope.recordings.other_formats import what_it_is
 
 if TYPE_CHECKING:
     import pandas as pd  # slow to import
@@ -194,14 +194,8 @@ def _why_ragged(count: int, width: int) -> str:
 
 
 def _check_header(path: Path, header: list[str]) -> None:
-    if len(header) == 1 and re.search(r"[;\t|]", header[0]):
-        raise InputError(
-            path,
-            "line 1",
-            header[0],
-            "columns are separated by commas",
-            f"`armscope init {path.name} -o mapping.yaml` drafts how to read it, `armscope import` converts it.",
-        )
+    if other := what_it_is(header, path.name):
+        raise InputError(path, "line 1", *other)
     if len(header) > MOST_COLUMNS:
         raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")
     if header[0].startswith("sep="):

@@ -1,0 +1,41 @@
+"""Text that is no table of armscope, told by its first line: JSON, HTML, a table of blanks, a table without names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
+_TO_CSV = "Save it as CSV: a first line with the columns' names, then a row per point, separated by commas."
+
+
+def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:
+    """What a first line says about a file that can't be read by its columns' names.
+
+    Args:
+        header: the first line's cells.
+        file: the file's name, for the command that converts it.
+
+    Returns:
+        What was found, what is allowed and how to mend it; None where the line may name columns.
+    """
+    line = ",".join(header).strip()
+    by_draft = f"`armscope init {file} -o mapping.yaml` drafts how to read it, `armscope import` converts it."
+    if "\0" in line:
+        return "zero bytes, as in UTF-16", "tables are UTF-8 text", "Save it as UTF-8."
+    if line.startswith(("{", "[{", "[[")) or line in ("[", "{"):
+        return f"JSON, {line[:40]!r}", "tables are CSV", _TO_CSV
+    if line.startswith("<"):
+        return f"HTML or XML, {line[:40]!r}", "tables are CSV", _TO_CSV
+    if len(header) == 1 and re.search(r"[;\t|]|\S\s+\S+\s+\S", line):
+        return line, "columns are separated by commas", by_draft
+    if len(header) > 1 and all(_NUMBER.fullmatch(cell.strip()) for cell in header):
+        rule = "the first line names the columns"
+        return f"numbers, {line[:40]!r}", rule, "Write a line q1_rad,q2_rad,...,x_mm,y_mm,z_mm above them."
+    if len(header) > 1 and all(re.fullmatch(r"'.*'", cell.strip()) for cell in header):
+        return (
+            f"names in single quotes, {header[0]}",
+            "only double quotes may stand around a cell",
+            "Remove the quotes.",
+        )
+    return None
