@@ -27,3 +27,7 @@ def test_diagnoses_of_a_simulated_fleet_end_in_one_page(tmp_path):
     assert len(arms(members, found)) == 2
     named = causes_of_arms(members, found)
     assert len(fleet_figure(named).axes) == 2
+    heads = page[page.index("arms with it") :].split("</th>")
+    assert heads[1].rpartition(">")[2].strip() == "of", "2 of 6 is read in one go"
+    assert "No type has five arms" in page
+    assert "no arm is far" not in page, "nobody was compared"

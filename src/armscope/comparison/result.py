@@ -103,7 +103,8 @@ class Comparison:
         if len(self.same_poses) > 1:
             families = " / ".join(", ".join(family) for family in self.same_poses)
             said += (
-                f" Whether anything changed between recordings of other poses or payloads cannot be told ({families})."
+                f" Poses or payloads differ between {families}, so whether anything changed from one to the other "
+                "cannot be told: record the same poses with the same payload again."
             )
         return said.strip()
 

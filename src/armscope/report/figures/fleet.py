@@ -35,5 +35,6 @@ def fleet_figure(causes: pd.DataFrame) -> Figure:
         step = max(1, -(-len(sizes) // MOST_LABELS))
         axes.set_yticks(range(0, len(sizes), step), list(sizes.index[::step]), fontsize=6)
         axes.grid(visible=False)
-        figure.colorbar(picture, label="RMS at the tool (mm per axis)", shrink=0.6)
+        # as high as the map: the words beside a bar of few rows would be cut off
+        figure.colorbar(picture, label="RMS at the tool\n(mm per axis)")
     return figure

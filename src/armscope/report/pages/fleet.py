@@ -10,6 +10,7 @@ from armscope.core.files import write_table, write_yaml
 from armscope.fleet.members import Member
 from armscope.fleet.summary import (
     COMMON,
+    FEWEST_ARMS,
     OUTLIER,
     arms,
     causes_of_arms,
@@ -36,6 +37,8 @@ IN_WORDS = {
 def _in_words(table: pd.DataFrame) -> pd.DataFrame:
     """A table for people: columns and causes in words."""
     told = table.assign(cause=table["cause"].map(plain)) if "cause" in table else table
+    if {"arms", "of"} <= set(told.columns):  # "2 of 6" is read in one go
+        told.insert(told.columns.get_loc("arms") + 1, "of", told.pop("of"))
     return told.rename(columns=IN_WORDS)
 
 
@@ -65,6 +68,8 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
         repeated=_in_words(often),
         failed=pd.DataFrame(failed.items(), columns=["diagnosis", "why"]),
         figure=output / "causes.svg" if drawn else None,
+        comparable=bool((of_arms.groupby("type")["arm"].nunique() >= FEWEST_ARMS).any()),
+        fewest=spelled(FEWEST_ARMS),
         types=spelled(int(of_arms["type"].nunique())),
         limit=OUTLIER,
         share=COMMON,
