@@ -127,6 +127,10 @@ def test_an_arm_of_the_library_with_a_slip_in_its_name_is_told(monkeypatch, tmp_
     assert "Did you mean 'ur5e'?" in str(error_of("check RECORDINGS --robot ur5ee"))
 
 
+def test_tables_that_are_compared_without_an_arm_ask_for_it():
+    assert "Add --robot robot.yaml" in str(error_of("compare RECORDINGS RECORDINGS"))
+
+
 @pytest.mark.parametrize("line", FOLDER_READERS)
 def test_a_folder_that_is_none_is_named(line, tmp_path):
     error = error_of(line, BAD=tmp_path / "nowhere", OUT=tmp_path / "out")

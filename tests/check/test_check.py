@@ -10,6 +10,8 @@ from scipy.spatial.transform import Rotation
 from armscope.check.report import check
 from armscope.recordings import read_recordings
 from armscope.robot import chain, load_arm
+from armscope.robot.arm import build_arm
+from armscope.robot.description import Instrument
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 from tests.robot.arms import STANDARD, dh_arm
 
@@ -62,6 +64,11 @@ def _flip(table, motor):
     return replace(table, motor_angles=table.motor_angles * np.where(np.arange(6) == motor, -1, 1))
 
 
+def _relative(table, sign):
+    """Angle 3 with that of joint 2 added or taken off."""
+    return table.motor_angles + sign * table.motor_angles[:, [1]] * (np.arange(6) == 2)
+
+
 @pytest.mark.parametrize(
     ("mistake", "words"),
     [
@@ -85,6 +92,11 @@ def _flip(table, motor):
             lambda t: replace(t, orientation=np.roll(t.orientation * [1, -1, -1, -1], -1, axis=1)),
             "order x, y, z, w and turn the other way",
         ),
+        (lambda t: replace(t, orientation=np.roll(t.orientation, 1, axis=1)), "the real part stands in qx"),
+        (lambda t: replace(t, motor_angles=-t.motor_angles), "every joint turns the other way"),
+        (lambda t: replace(t, motor_angles=_relative(t, 1)), "q3 holds the forearm's angle absolute"),
+        (lambda t: replace(t, motor_angles=_relative(t, -1)), "q3 holds the forearm's angle relative to link 2"),
+        (lambda t: replace(t, positions=t.positions * 1e-4), "Are these errors, measured minus nominal?"),
         (lambda t: replace(t, positions=t.positions / 10), "centimetres that were declared as millimetres"),
         (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
         (
@@ -105,6 +117,35 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
     found = problems(mistake(sound), arm)
     assert len(found) == 1
     assert words in found[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            lambda dh: dh.model_copy(update={"convention": "modified"}),
+            "are in the standard convention, not the mod",
+        ),
+        (
+            lambda dh: dh.model_copy(
+                update={"joints": [row.model_copy(update={"alpha_deg": -row.alpha_deg}) for row in dh.joints]}
+            ),
+            "every alpha of the D-H rows has the other sign",
+        ),
+    ],
+)
+def test_a_mistake_in_the_rows_of_robot_yaml_is_named_as_one(change, words, arm, sound):
+    stated = arm.description.model_copy(update={"dh": change(arm.description.dh)})
+    (found,) = problems(sound, build_arm(stated))
+    assert words in found
+
+
+def test_an_instrument_coarser_than_all_that_is_left_is_in_another_unit(arm, sound):
+    for sigma, said in ((0.05, False), (50.0, True)):
+        stated = arm.description.model_copy(update={"instrument": Instrument(sigma_mm=sigma)})
+        found = problems(sound, build_arm(stated))
+        assert bool(found) == said
+        assert not said or "was it in micrometres?" in found[0]
 
 
 def _runs(*tables):

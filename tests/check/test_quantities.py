@@ -62,6 +62,20 @@ def test_another_unit_or_sign_is_a_problem_that_is_named(arm, table, wrong, word
     assert words in found[0].text().replace("0.0014 ", "0.00140 ")
 
 
+@pytest.mark.parametrize(
+    ("unusual", "words"),
+    [
+        (lambda t: {"temperature": 1.8 * t.temperature.clip(18, 24) + 32}, "is it in Fahrenheit"),
+        (lambda t: {"time": t.time * 1e3 * 37}, "are these milliseconds?"),
+        (lambda t: {"time": 1.7e12 + t.time * 1e3 * 37}, "are these milliseconds?"),
+    ],
+)
+def test_what_may_be_in_another_unit_is_hinted_at(arm, table, unusual, words):
+    (found,) = of_quantities(replace(table, **unusual(table)), arm)
+    assert found.weight == "hint"
+    assert words in found.text()
+
+
 def test_torques_that_have_nothing_to_do_with_gravity_are_left_in_peace(arm, table):
     noise = np.random.default_rng(1).normal(size=table.torque.shape)
     assert of_quantities(replace(table, torque=noise), arm) == []

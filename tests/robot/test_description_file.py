@@ -27,6 +27,18 @@ def test_metres_are_told_with_their_cure(tmp_path):
     assert load_arm(write(tmp_path, [(0, 90, 0), (0, 0, 0)], tool_mm=[0, 0, 100])).n_joints == 2
 
 
+def test_centres_of_mass_in_metres_are_told_with_their_cure(tmp_path):
+    for factor in (1, 1e-3):
+        links = [{"mass_kg": 3, "com_mm": [0, 0, 100 * factor]} for _ in UR5_MM]
+        file = write(tmp_path, UR5_MM, links=links)
+        if factor == 1:
+            assert load_arm(file).n_joints == 6
+        else:
+            with pytest.raises(InputError, match=r"links: found '0\.1 mm'.*multiply com_mm by 1000"):
+                load_arm(file)
+    assert load_arm(write(tmp_path, UR5_MM, links=[{"mass_kg": 3, "com_mm": [0, 0, 0]} for _ in UR5_MM])).n_joints == 6
+
+
 @pytest.mark.parametrize("digits", [2, 4, 9])
 def test_alpha_in_radians_is_told_with_its_value_in_degrees(tmp_path, digits):
     rows = [(a, round(float(np.radians(alpha)), digits), d) for a, alpha, d in UR5_MM]

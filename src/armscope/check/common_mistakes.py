@@ -13,8 +13,12 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+from armscope.robot.arm import build_arm
 
 LARGEST_ROW_SHIFT = 3
+
+PARALLELOGRAM = ("base", "upper arm", "forearm")
+"""What the motors up to that of a parallelogram turn."""
 
 MOST_ROWS = 400
 """Mistakes of a whole table show in a part of it: the trials look at so many rows, spread evenly."""
@@ -28,12 +32,16 @@ MOST_STEPS = 12
 
 @dataclass(frozen=True)
 class Trial:
-    """A mistake that may have been made: its kind as notices call it, what to say of it, and how to undo it."""
+    """A mistake that may have been made: its kind as notices call it, what to say of it, and how to undo it.
+
+    Most are in the table; where it is in robot.yaml, ``arm`` is the arm without it.
+    """
 
     kind: str
     statement: str
     cure: str
     undo: Callable[[Recordings], Recordings]
+    arm: Callable[[Arm], Arm] = lambda arm: arm
 
 
 def trials(arm: Arm) -> Iterator[Trial]:
@@ -53,6 +61,37 @@ def trials(arm: Arm) -> Iterator[Trial]:
             partial(_shifted, shift=shift),
         )
     yield from _joints(arm.n_motors)
+    yield from _of_the_arm(arm)
+
+
+def _of_the_arm(arm: Arm) -> Iterator[Trial]:
+    """What is usually wrong in D-H rows that were copied from a drawing or another program."""
+    dh = arm.description.dh
+    if dh is None:
+        return
+    other = "modified" if dh.convention == "standard" else "standard"
+    yield Trial(
+        "D-H convention",
+        f"the D-H rows are in the {other} convention, not the {dh.convention} one that robot.yaml states",
+        f"Write convention: {other} under dh in robot.yaml.",
+        lambda table: table,
+        lambda arm: _with_rows(arm, convention=other),
+    )
+    mirrored = [row.model_copy(update={"alpha_deg": -row.alpha_deg}) for row in dh.joints]
+    yield Trial(
+        "D-H signs",
+        "every alpha of the D-H rows has the other sign",
+        "Change the sign of all alpha_deg in robot.yaml: they turn about x, right-handed.",
+        lambda table: table,
+        lambda arm: _with_rows(arm, joints=mirrored),
+    )
+
+
+def _with_rows(arm: Arm, **changes: Any) -> Arm:
+    """An arm whose D-H table is another."""
+    assert arm.description.dh is not None
+    dh = arm.description.dh.model_copy(update=changes)
+    return build_arm(arm.description.model_copy(update={"dh": dh}))
 
 
 def _units() -> Iterator[Trial]:
@@ -79,6 +118,13 @@ def _joints(n_motors: int) -> Iterator[Trial]:
         "q1 is the joint nearest the base.",
         _changed("motor_angles", np.fliplr),
     )
+    yield Trial(
+        "joint sign",
+        "every joint turns the other way than the arm's model says",
+        "Give all angles the other sign.",
+        _changed("motor_angles", np.negative),
+    )
+    yield from _parallelogram(n_motors)
     one_by_one = np.eye(n_motors)
     for motor in range(n_motors):
         yield Trial(
@@ -103,6 +149,24 @@ def _joints(n_motors: int) -> Iterator[Trial]:
             "Exchange their columns.",
             _changed("motor_angles", partial(np.take, indices=order, axis=1)),
         )
+
+
+def _parallelogram(n_motors: int) -> Iterator[Trial]:
+    """On many arms joint 3 is driven by a parallelogram, so that its motor holds the forearm's direction."""
+    if n_motors < len(PARALLELOGRAM):
+        return
+    for sign, says, is_so in ((-1, "relative to link 2", "absolute"), (1, "absolute", "relative to link 2")):
+        yield Trial(
+            "parallelogram",
+            f"q3 holds the forearm's angle {is_so}, where robot.yaml has it {says}",
+            "Is joint 3 driven by a parallelogram? Then `actuation` in robot.yaml has {q3: 1, q2: -1} as its third "
+            "row; else it has no such row.",
+            _changed("motor_angles", partial(_third_by_second, sign=sign)),
+        )
+
+
+def _third_by_second(angles: Array, sign: int) -> Array:
+    return np.asarray(angles + sign * angles[:, [1]] * (np.arange(angles.shape[1]) == len(PARALLELOGRAM) - 1))
 
 
 def _changed(what: str, change: Callable[[Array], Array]) -> Callable[[Recordings], Recordings]:

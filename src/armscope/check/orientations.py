@@ -51,6 +51,11 @@ READINGS: tuple[Reading, ...] = (
         "Declare order: xyzw, and change the sign of x, y, z.",
         lambda q: q[:, [3, 0, 1, 2]] * [1, -1, -1, -1],
     ),
+    (
+        "the quaternions' columns are one place off: the real part stands in qx",
+        "Call the columns qz, qw, qx, qy in place of qw, qx, qy, qz.",
+        lambda q: q[:, [1, 2, 3, 0]],
+    ),
     *_mirrored(),
 )
 

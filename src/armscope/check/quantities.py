@@ -15,6 +15,12 @@ from armscope.robot.gravity import gravity_torques
 COLDEST_C, WARMEST_C = -50.0, 120.0
 """Where arms are measured; drives and oil are warmer than rooms."""
 
+WARMEST_ROOM_C = 45.0
+"""Makers allow arms to work in rooms of 0 to 45 degrees (data sheets)."""
+
+LONGEST_BETWEEN_ROWS_S = 3600.0
+"""Half of a table's rows come sooner after the one before: a session is a matter of hours."""
+
 HEAVIEST_KG = 2500.0
 """No arm carries more; nor does one carry more than its own mass."""
 
@@ -53,9 +59,14 @@ def _coarse_angles(recordings: Recordings, arm: Arm) -> Suspicion | None:
 
 def _temperature(recordings: Recordings) -> Suspicion | None:
     known = _known(recordings.temperature)
-    if not len(known) or (known.min() > COLDEST_C and known.max() < WARMEST_C):
+    if not len(known):
         return None
     statement = f"the temperature reads {known.min():.4g} ... {known.max():.4g} degrees Celsius"
+    if known.min() > WARMEST_ROOM_C and known.max() < WARMEST_C:
+        cure = "No workshop is that warm: is it in Fahrenheit, or of a motor? The structure's is needed."
+        return Suspicion("hint", statement, cure)
+    if known.min() > COLDEST_C and known.max() < WARMEST_C:
+        return None
     return Suspicion("problem", statement, "Is it in kelvin, or does a number stand for no value?")
 
 
@@ -86,10 +97,13 @@ def _sigma(recordings: Recordings) -> Suspicion | None:
 def _time(recordings: Recordings) -> Suspicion | None:
     if recordings.time is None:
         return None
-    back = 0
-    for run in np.unique(recordings.run):
-        times = recordings.time[recordings.run == run]
-        back += int((np.diff(times[np.isfinite(times)]) < 0).sum())
+    runs = [recordings.time[recordings.run == run] for run in np.unique(recordings.run)]
+    steps = np.concatenate([np.diff(times[np.isfinite(times)]) for times in runs])
+    usual = float(np.median(np.abs(steps))) if len(steps) else 0.0
+    if usual > LONGEST_BETWEEN_ROWS_S:
+        statement = f"a row usually comes {usual / 3600:.3g} hours after the one before"
+        return Suspicion("hint", statement, "time_s is in seconds: are these milliseconds?")
+    back = int((steps < 0).sum())
     if not back:
         return None
     statement = f"time goes back between rows {back} times" if back > 1 else "time goes back between two rows once"

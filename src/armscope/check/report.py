@@ -108,7 +108,7 @@ def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
         found.append(Suspicion("hint", f"{', '.join(constant)} {verb}, so nothing can be learned from {it}"))
     if contents.repeats.copies:
         statement = f"{contents.repeats.copies} rows are copies of other rows, to the last digit"
-        found.append(Suspicion("hint", statement, "They count twice, and make the noise look smaller than it is."))
+        found.append(Suspicion("hint", statement, "A table pasted twice? `armscope diagnose` leaves them out."))
     for run in contents.runs:
         found += _of_extent(run)
     return tuple(found)

@@ -38,6 +38,12 @@ CLEARLY_BETTER = 0.3
 AS_GOOD = 1.05
 """Mistakes whose undoing leaves this many times the least are as good: some are the same to an arm's kinematics."""
 
+A_POINT = 0.01
+"""Points whose spread is below this share of the arm's are no tool points: an arm misses by less than 1 % of that."""
+
+TOO_COARSE = 10
+"""Times what the nominal arm leaves that a stated uncertainty can't be: noise is part of what is left."""
+
 WRONG_ROBOT = "wrong robot"
 MOST_ROWS_FOR_EXCHANGE = 20_000
 FAR = 10
@@ -83,7 +89,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
             arm, recordings, misfit
         )
     else:
-        found += better_arm(arm, some, misfit)
+        found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit)
         found += _exchanged_rows(arm, recordings)
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
@@ -165,12 +171,17 @@ def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
 
 def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     share, spread = _tried(arm, table)
-    tried = [(_tried(arm, trial.undo(table))[0], trial) for trial in trials(arm)]
+    tried = [(_tried(trial.arm(arm), trial.undo(table))[0], trial) for trial in trials(arm)]
     least = min(left for left, _ in tried)
     if least < min(FITS, CLEARLY_BETTER * share):
         best, *others = [trial for left, trial in tried if left <= AS_GOOD * least]
         alternatives = " ".join(f"Or {other.statement}: the points can't tell." for other in others)
         return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip(), best.kind)
+    of_points = _spread(table)
+    if of_points < A_POINT * spread:
+        statement = f"the points{where} lie within {1e3 * of_points:.2g} mm, though the arm's lie within"
+        cure = "Are these errors, measured minus nominal? Points are needed: where the tool was."
+        return Suspicion("problem", f"{statement} {1e3 * spread:.0f} mm", cure, WRONG_ROBOT)
     return Suspicion(
         "problem",
         f"the arm does not explain the points{where}: {100 * min(share, 1):.0f} % of their spread of "
@@ -223,6 +234,18 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
             return []
     statement = f"the tool seems to have moved between runs, {found.apart}"
     return [Suspicion("hint", statement, f"With one of its own per run {found.own_mm:.3g} mm are left: free it there.")]
+
+
+def _too_coarse(arm: Arm, misfit: float) -> list[Suspicion]:
+    """An uncertainty larger than all that is left would hide every error: most likely it is in another unit."""
+    left = misfit / np.sqrt(3)
+    if arm.sigma is None or arm.sigma < TOO_COARSE * left:
+        return []
+    statement = (
+        f"robot.yaml states an instrument of {1e3 * arm.sigma:.3g} mm, but the nominal arm already meets the points "
+        f"to {1e3 * left:.2g} mm per axis"
+    )
+    return [Suspicion("problem", statement, "sigma_mm is in mm: was it in micrometres?")]
 
 
 def _outside_limits(arm: Arm, recordings: Recordings) -> list[Suspicion]:

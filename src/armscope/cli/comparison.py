@@ -36,7 +36,11 @@ def compare(
     changed. Base and tool may differ.
     """
     from armscope.cli.robots import arm_and_tables, print_json
+    from armscope.core.inputs import InputError
 
+    if robot is None and recordings[0].is_file():
+        rule = f"the nominal arm must be known: {ROBOT} stands beside no table, only in a folder"
+        raise InputError("--robot", "", "nothing", rule, "Add --robot robot.yaml, or name folders.")
     files = [_inside(each, RECORDINGS) for each in recordings]
     arm, read = arm_and_tables(robot or _inside(recordings[0], ROBOT), files)
     tables = dict(zip(_names(recordings), read, strict=True))

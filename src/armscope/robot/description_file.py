@@ -17,6 +17,9 @@ from armscope.robot.urdf_file import guess_chain, is_xml, root_of
 
 SHORTEST_ARM_MM = 10.0
 """All lengths of a D-H table together: the smallest arms that are sold reach 200 mm and more (makers' data sheets)."""
+LARGEST_CENTRE_IN_METRES = 3.0
+"""Of arms up to 6 m a centre of mass in metres is below it; in mm, those of all links would lie within 3 mm of their
+frames' origins, as none of the library's arms has it."""
 QUARTER_TURN_RAD = math.pi / 2
 AS_WRITTEN_RAD = 2e-3
 """pi/2 and pi written with two digits differ from themselves by so much."""
@@ -99,6 +102,11 @@ def _refuse_other_units(description: RobotDescription, path: Path | str) -> None
             cure = f"Write {math.degrees(angles[number]):.0f} in degrees."
             rule = "this is a quarter or half turn in radians, and so are all others"
             raise InputError(path, f"dh.joints[{number}].{key}", angles[number], rule, cure)
+    centres = [abs(value) for link in description.links or () for value in link.com_mm]
+    if lengths > LARGEST_CENTRE_IN_METRES * 100 and 0 < max(centres, default=0) <= LARGEST_CENTRE_IN_METRES:
+        rule = f"no centre of mass lies further than {max(centres):.3g} mm from its frame's origin"
+        cure = "Are they metres? Then multiply com_mm by 1000."
+        raise InputError(path, "links", f"{max(centres):.3g} mm", rule, cure)
     limits = [end for pair in description.joint_limits_deg or () for end in pair]
     if len(limits) > 2 and max(map(abs, limits)) <= 2 * math.pi:
         rule = "no joint moves further than 6.3 degrees by these limits"

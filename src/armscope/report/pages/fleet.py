@@ -38,7 +38,7 @@ def _in_words(table: pd.DataFrame) -> pd.DataFrame:
     """A table for people: columns and causes in words."""
     told = table.assign(cause=table["cause"].map(plain)) if "cause" in table else table
     if {"arms", "of"} <= set(told.columns):  # "2 of 6" is read in one go
-        told.insert(told.columns.get_loc("arms") + 1, "of", told.pop("of"))
+        told.insert(list(told.columns).index("arms") + 1, "of", told.pop("of"))
     return told.rename(columns=IN_WORDS)
 
 
