@@ -88,6 +88,21 @@ class LoopBudget(Constants):
     promising: int = constant(
         60, "beside the chosen ones, weighed again on all rows of a long table", "judgement: time", unit="effects"
     )
+    far_off_together: int = constant(
+        8,
+        "of twice as many in succession that are far off, from which they are no bad shots",
+        "derived: where a tenth of the rows are bad shots, strewn at random, one such stretch of sixteen in 10,000 has "
+        "so many",
+        unit="rows",
+    )
+    times_brought_back: int = constant(
+        3, "that such rows are looked at", "judgement: as many jumps, one after the other; time", unit="times"
+    )
+    still_apart: float = constant(
+        0.5,
+        "share of them that may stay far off where a jump is taken to explain them",
+        "judgement: most are explained, or it is no explanation",
+    )
     scatter_rows: int = constant(4000, "on which scatter is looked for", "judgement: time", unit="rows")
 
 

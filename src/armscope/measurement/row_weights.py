@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.measurement import robust
@@ -101,6 +102,11 @@ class ChannelWeights:
         root = self.scale * np.sqrt(self.weight[rows])
         return root if self.whitening is None else np.asarray(root[:, None, None] * self.whitening[rows])
 
+    def trusting(self, which: NDArray[np.bool_]) -> ChannelWeights:
+        """The weights with some rows' (N,) as if they were no bad shots."""
+        nominal = np.ones(len(self.weight)) if self.nominal_weight is None else self.nominal_weight
+        return replace(self, weight=np.where(which, nominal, self.weight))
+
     def take(self, rows: Indices, share: float) -> ChannelWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""
         nominal = None if self.nominal_weight is None else self.nominal_weight[rows] / share
@@ -169,6 +175,10 @@ class RowWeights:
     def is_plain(self) -> bool:
         """Whether nothing but the reference channel counts, as it was measured."""
         return len(self.of_channels) == 1 and self.whitening is None
+
+    def trusting(self, which: NDArray[np.bool_]) -> RowWeights:
+        """The weights with some rows' (N,) as if they were no bad shots."""
+        return replace(self, of_channels=tuple(each.trusting(which) for each in self.of_channels))
 
     def take(self, rows: Indices, share: float = 1.0) -> RowWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""
