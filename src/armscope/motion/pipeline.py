@@ -24,6 +24,7 @@ from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch, mended, stretches
+from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.holding_out import (
     Fold,
     HeldOutTorque,
@@ -216,7 +217,7 @@ def _judged(
     found = [cause for _, cause in numbered]
     order = [number for number, _ in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
-    lasting = lasting_torques(selected)
+    lasting = (*lasting_torques(selected), *friction_by_run(selected))
     left = unexplained(found, lasting)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
     answer, mismatch = answer_of(found, left, errors)

@@ -108,9 +108,23 @@ def agreement_of(selected: Weighed, paths: bool, candidate: int) -> PathAgreemen
     Returns:
         The factors with their standard errors.
     """
+    columns = selected.problem.space.candidates[candidate].columns
+    own = coefficients_of(selected.problem, selected.best)[columns] * selected.problem.scale[columns]
+    return PathAgreement(*sizes_by_block(selected, columns, own), paths)
+
+
+def sizes_by_block(selected: Weighed, columns: Indices, own: Array) -> tuple[Array, Array]:
+    """How large the numbers of some columns are in each block by itself.
+
+    Args:
+        selected: a selection.
+        columns: (c,) of them.
+        own: (c,) numbers that count as one, in units of the problem's scale.
+
+    Returns:
+        (blocks,) as shares of these, and their standard errors.
+    """
     best, problem = selected.best, selected.problem
-    columns = problem.space.candidates[candidate].columns
-    own = coefficients_of(problem, best)[columns] * problem.scale[columns]
     others = np.setdiff1d(best.columns, columns)
     precision = best.noise**2 / best.variance[best.at(others)]
     mean = best.means(others)
@@ -119,7 +133,7 @@ def agreement_of(selected: Weighed, paths: bool, candidate: int) -> PathAgreemen
         size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
         sizes.append(size)
         errors.append(error)
-    return PathAgreement(np.array(sizes), np.array(errors), paths)
+    return np.array(sizes), np.array(errors)
 
 
 def _factor(

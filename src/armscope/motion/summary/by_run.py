@@ -1,0 +1,70 @@
+"""Friction that is not the same in all runs, and follows nothing that was recorded: gears that warm up, as a rule.
+
+What is learned from other motion foretells no such thing (`armscope.motion.summary.lasting`), and evidence asks for no
+law of it: it would count as noise, and nothing would be missing. But each run by itself tells its own friction.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.search import Search
+from armscope.motion.constants import CONSISTENCY
+from armscope.motion.fitting.consistency import sizes_by_block
+from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
+from armscope.motion.library.layout import NAMED_OF_OWN, OWN
+from armscope.motion.summary.constants import LASTING
+from armscope.motion.summary.lasting import LastingTorque
+
+KINDS = {"viscous": "the speed", "coulomb": "the direction"}
+"""Frictions, and what each follows, in words."""
+
+
+def friction_by_run(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
+    """Joints whose friction differs from run to run, or within a single one from part to part; largest share first.
+
+    Args:
+        selected: the selection.
+
+    Returns:
+        What of each joint's torque that is, by the friction that differs more.
+    """
+    rows, found = selected.rows, []
+    ordinary = Search.on(selected.problem).perfect()
+    before = rows.torque - rows.nominal - rows.modelled(coefficients_of(selected.problem, ordinary))
+    where = "run" if len(set(rows.run.tolist())) > 1 else "part of the motion"
+    for j in range(rows.torque.shape[1]):
+        which = selected.weights.row[:, j] > 0
+        if np.sum(which) < LASTING.least_rows:
+            continue
+        parts = [(float(np.mean(_departing(selected, j, kind)[which] ** 2)), kind) for kind in KINDS]
+        power, kind = max(parts)
+        share = power / max(float(np.mean(before[which, j] ** 2)), 1e-300)
+        if share > LASTING.share and power > LASTING.repeats * float(np.mean(selected.residuals[which, j] ** 2)):
+            rms, torque = float(np.sqrt(power)), float(np.sqrt(np.mean(rows.torque[which, j] ** 2)))
+            words = f"{KINDS[kind]}, otherwise in each {where} (gears that warm up do so)"
+            found.append(LastingTorque(j, words, rms, rms / max(torque, 1e-300), share))
+    return tuple(sorted(found, key=lambda each: -each.share))
+
+
+def _departing(selected: SelectedCauses, joint: int, kind: str) -> Array:
+    """(K,) N m by which a joint's friction is another one in each block; zero where blocks agree."""
+    rows, none = selected.rows, np.zeros(len(selected.rows))
+    column = OWN * joint + NAMED_OF_OWN.index(kind)
+    whole = float(selected.coefficients[column] + np.nan_to_num(rows.layout.arm.stated_background[joint, column % OWN]))
+    if whole <= 0:
+        return none
+    unit = np.array([whole * selected.problem.scale[column]])
+    size, error = sizes_by_block(selected, np.array([column]), unit)
+    telling = np.flatnonzero(error < CONSISTENCY.telling)
+    if len(telling) < 2:
+        return none
+    least, most = telling[np.argmin(size[telling])], telling[np.argmax(size[telling])]
+    apart = size[most] - size[least]
+    if apart < max(CONSISTENCY.tolerance, CONSISTENCY.widths * float(np.hypot(error[most], error[least]))):
+        return none
+    more = np.zeros(len(size))
+    more[telling] = size[telling] - np.average(size[telling], weights=error[telling] ** -2)
+    values = rows.columns[joint][:, np.searchsorted(rows.at[joint], column)].astype(np.float64)
+    return np.asarray(whole * more[selected.block] * values)

@@ -1,0 +1,57 @@
+"""Friction that differs from run to run without a recorded reason is told; friction that is the same is not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.summary.by_run import friction_by_run
+from tests.motion.moving import COULOMB, VISCOUS, Plant, moved, robot
+
+JOINT = 1
+
+
+def warming(shares: Iterator[float], dry: bool = False) -> Plant:
+    """Friction of joint 2 that is more by another share in each run."""
+
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        extra = np.zeros_like(q)
+        own = COULOMB[JOINT] * np.sign(dq[:, JOINT]) if dry else VISCOUS[JOINT] * dq[:, JOINT]
+        extra[:, JOINT] = next(shares) * own
+        return extra
+
+    return plant
+
+
+def diagnosed(plant: Plant | None, temperature: bool = False) -> MotionDiagnosis:
+    motions = moved(robot(), 3, plant, runs=3)
+    if temperature:
+        run = np.unique(motions.run, return_inverse=True)[1].astype(float)
+        motions = replace(motions, temperature=np.tile(20.0 + 10.0 * run[:, None], motions.n_motors))
+    return diagnose_motion(robot(), motions, MotionSettings(cutoff=10.0))
+
+
+@pytest.mark.parametrize(("dry", "follows"), [(False, "the speed"), (True, "the direction")])
+def test_friction_that_differs_by_run_is_told_at_its_joint(dry: bool, follows: str) -> None:
+    verdict = diagnosed(warming(iter([0.6, 0.0, -0.6]), dry)).verdict
+    assert verdict.answer == "cannot tell"
+    assert verdict.unexplained.location == "joint 2"
+    assert verdict.unexplained.driver is not None
+    assert verdict.unexplained.driver.startswith(f"{follows}, otherwise in each run")
+
+
+def test_friction_that_is_the_same_in_all_runs_is_not() -> None:
+    found = diagnosed(None)
+    assert not friction_by_run(found.selected)
+    assert found.verdict.answer == "nothing missing"
+
+
+def test_friction_that_follows_the_recorded_temperature_has_its_name() -> None:
+    found = diagnosed(warming(iter([0.6, 0.0, -0.6])), temperature=True)
+    assert [(each.effect, each.location) for each in found.verdict.effects] == [("thermal_friction", "joint 2")]
+    assert not friction_by_run(found.selected)
