@@ -10,7 +10,6 @@ import numpy as np
 from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.against_their_load import against_their_load
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.earning import earned, steady
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
@@ -22,6 +21,7 @@ from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import GEARS, freedom_of_waves, with_sizes_of_rows
 from armscope.diagnosis.state import Selected
+from armscope.diagnosis.what_stands import what_stands
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
 from armscope.fitting.linearisation import Measured, linearised, residuals
@@ -45,7 +45,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.transmission import MESH_COUNTS
-from armscope.physics.wander import is_of_rows
 
 
 class SelectionLoop:
@@ -240,9 +239,8 @@ class SelectionLoop:
         Args:
             finer: whether gears have finer waves in the last fit, which no search could afford.
         """
-        wander = FAMILIES.index(DRIFT)
-        of_rows = [self.space.layout.of(placed) for placed in self.families[wander] if is_of_rows(placed)]
-        left = steady(self.problem, self.blocks, earned(self.problem, self.blocks, self.best), wander, of_rows)
+        wander = self.families[FAMILIES.index(DRIFT)]
+        left = what_stands(self.problem, self.blocks, self.best, self.space, wander)
         waves = self._waves(left, finer)
         if self.summed or left is not self.best or waves != self.families[GEARS]:
             self.best, self.families[GEARS] = left, waves
