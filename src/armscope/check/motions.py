@@ -14,17 +14,15 @@ from armscope.check.motion_readings import Samples, beyond_friction, read_otherw
 from armscope.check.suspicion import Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.motion.check import doubts_about, refuse_other_joints
+from armscope.motion.check import channels, doubts_about, refuse_other_joints
 from armscope.motion.samples.timing import mended_rows
-from armscope.recordings.motions import Motions, torque_columns
+from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 
 WRONG_SCALE, LATE_STEPS = 0.05, 1.0
 """Share by which a recorded speed may differ from the angle's derivative, and by how many samples it may be late."""
 FARTHEST_LAG = 40
 """Samples over which a speed's lag is looked for."""
-AT_THE_LIMIT = 5
-"""Samples in a row at a channel's largest value that mean it was cut off there."""
 SAME_PATH = 0.01
 """Of the joints' ranges, from one run's path to another's: nearer than this it is the same path."""
 FAR_TURNS_RAD = 4 * np.pi
@@ -70,7 +68,7 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     kept, time, notices = mended_rows(motions)
     told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
-    found = [*told, *_dead(motions), *_saturated(motions), *_units(motions)]
+    found = [*told, *_dead(motions), *_units(motions)]
     found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
     if arm is not None:
         samples = _samples(even)
@@ -96,28 +94,10 @@ def _range(values: Array) -> str:
     return f"{values.min():.4g} ... {values.max():.4g}"
 
 
-def _channels(motions: Motions) -> list[str]:
-    if motions.kind == "torque":
-        return torque_columns(motions.sliding)
-    return [f"current{j + 1}_a" for j in range(motions.n_motors)]
-
-
 def _dead(motions: Motions) -> Iterator[Suspicion]:
-    for name, values in zip(_channels(motions), motions.effort.T, strict=True):
+    for name, values in zip(channels(motions), motions.effort.T, strict=True):
         if np.ptp(values) == 0:
             yield Suspicion("problem", f"{name} is {values[0]:g} in every row", "Is the channel recorded?")
-
-
-def _saturated(motions: Motions) -> Iterator[Suspicion]:
-    for name, values in zip(_channels(motions), motions.effort.T, strict=True):
-        for limit in (values.max(), values.min()):
-            at = np.flatnonzero(np.convolve(values == limit, np.ones(AT_THE_LIMIT), "valid") == AT_THE_LIMIT)
-            if len(at) and np.ptp(values) > 0:
-                statement = f"{name} stays at {limit:.4g}, the farthest it goes, from row {at[0] + 2} on"
-                yield Suspicion(
-                    "hint", statement, "Was the channel cut off there? What lies beyond looks like friction."
-                )
-                break
 
 
 def _units(motions: Motions) -> Iterator[Suspicion]:
@@ -200,7 +180,7 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
             factors[j] = float(asked @ left) / power
     most = float(np.median(np.abs(list(factors.values())))) if factors else 1.0
     for j, factor in factors.items():
-        name = _channels(motions)[j]
+        name = channels(motions)[j]
         if factor < 0:
             cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
             yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)

@@ -8,7 +8,8 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.recordings.motions import Motions
+from armscope.motion.samples.constants import READING
+from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
 
@@ -35,12 +36,19 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
 
 
 def doubts_about(motions: Motions) -> list[Notice]:
-    """Joints that stand, or move one way only.
+    """Joints that stand, or move one way only; channels that were cut off.
 
     Raises:
         InputError: none moves.
     """
-    return [*_still_joints(motions), *_one_way(motions)]
+    return [*_still_joints(motions), *_one_way(motions), *_cut_off(motions)]
+
+
+def channels(motions: Motions) -> list[str]:
+    """Columns of torque or current."""
+    if motions.kind == "torque":
+        return torque_columns(motions.sliding)
+    return [f"current{j + 1}_a" for j in range(motions.n_motors)]
 
 
 def refuse_other_joints(arm: MovingArm, motions: Motions) -> None:
@@ -87,6 +95,19 @@ def _one_way(motions: Motions) -> list[Notice]:
             if min(forward, 1 - forward) < CHECK.one_way:
                 text = f"Joint {j + 1} moves one way only: its dry friction and a torque offset can't be told apart."
                 notices.append(Notice("one way only", text))
+    return notices
+
+
+def _cut_off(motions: Motions) -> list[Notice]:
+    notices, several = [], READING.at_the_limit
+    for name, values in zip(channels(motions), motions.effort.T, strict=True):
+        for limit in (values.max(), values.min()) if np.ptp(values) > 0 else ():
+            at = np.flatnonzero(np.convolve(values == limit, np.ones(several), "valid") == several)
+            if len(at):
+                text = f"{name} stays at {limit:.4g}, the farthest it goes, from row {at[0] + 2} on. "
+                why = "Was the channel cut off there? What lies beyond looks like friction, or like an unknown torque."
+                notices.append(Notice("cut off", text + why))
+                break
     return notices
 
 

@@ -131,6 +131,18 @@ class FilterRules(Constants):
 
 
 @dataclass(frozen=True)
+class ReadingRules(Constants):
+    """What a channel shows of itself."""
+
+    at_the_limit: int = constant(
+        5,
+        "in a row at a channel's largest value that mean it was cut off there",
+        "judgement: noise repeats no value",
+        unit="samples",
+    )
+
+
+@dataclass(frozen=True)
 class CutoffRules(Constants):
     """How the cut-off is chosen."""
 
@@ -160,3 +172,4 @@ class CutoffRules(Constants):
 TIMING = TimingRules()
 FILTER = FilterRules()
 CUTOFF = CutoffRules()
+READING = ReadingRules()
