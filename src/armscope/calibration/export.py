@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.result import Calibration
 from armscope.core.files import write_text, write_yaml
@@ -75,6 +74,8 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
 
 def frames_content(calibration: Calibration) -> dict[str, Any]:
     """Base frames (measurement frame from arm base), tools and compliances, in the units of their names."""
+    from scipy.spatial.transform import Rotation  # slow to import
+
     state, rows = calibration.state, calibration.set_up
     quaternions = np.roll(Rotation.from_matrix(state.rotations).as_quat(canonical=True), 1, axis=1)
     content: dict[str, Any] = {

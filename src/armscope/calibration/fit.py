@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import SetUp
 from armscope.calibration.state import Posed, State
@@ -157,6 +156,8 @@ def with_tool_rotations(set_up: SetUp, state: State) -> State:
     """The state with each tool's mean orientation on the flange, where orientations are used."""
     if set_up.orientations is None:
         return state
+    from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
     _, frames = set_up.frames(state)
     known = np.isfinite(set_up.orientations).all(axis=(1, 2))
     seen = np.swapaxes(state.rotations[set_up.base], 1, 2) @ set_up.orientations

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain, twist_jacobian
 from armscope.robot.arm import build_arm
@@ -102,7 +102,7 @@ def _with_placements(arm: Arm, constants: tuple[Constant, ...], values: Array) -
         twists[constant.joint - 1, TWIST_NAMES.index(constant.kind)] = value
     before = arm.before.copy()
     before[:, :3, 3] += np.einsum("nij,nj->ni", arm.before[:, :3, :3], twists[:, :3])
-    before[:, :3, :3] = arm.before[:, :3, :3] @ Rotation.from_rotvec(twists[:, 3:]).as_matrix()
+    before[:, :3, :3] = arm.before[:, :3, :3] @ turned_by(twists[:, 3:])
     return replace(arm, before=before)
 
 

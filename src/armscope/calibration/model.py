@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
 from armscope.calibration.state import Posed, State
@@ -144,6 +143,8 @@ class SetUp:
         return self._turn_residuals(state, self.frames(state)[1])
 
     def _turn_residuals(self, state: State, frames: Chain) -> Array:
+        from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
         assert self.orientations is not None
         known = np.isfinite(self.orientations).all(axis=(1, 2))
         seen = np.swapaxes(state.rotations[self.base[known]], 1, 2) @ self.orientations[known]
@@ -269,6 +270,8 @@ def _matrices(quaternions: Array | None) -> Array | None:
     """(N, 3, 3) from (N, 4) wxyz, NaN where not measured; None without any."""
     if quaternions is None:
         return None
+    from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
     known = np.isfinite(quaternions).all(axis=1)
     matrices = np.full((len(quaternions), 3, 3), np.nan)
     matrices[known] = Rotation.from_quat(quaternions[known], scalar_first=True).as_matrix()

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.by_run import ALL
 from armscope.calibration.confounding import Confounded
@@ -82,6 +81,8 @@ class Calibration:
         Base frames: position and rotation vector, their standard errors along and about the base's own axes. Nominal
         values stand beside D-H constants and tool points.
         """
+        from scipy.spatial.transform import Rotation  # slow to import
+
         base = np.concatenate([self.state.translations, Rotation.from_matrix(self.state.rotations).as_rotvec()], axis=1)
         turns = Rotation.from_matrix(self.state.tool_rotations).as_rotvec()
         state, rows = self.state, self.set_up

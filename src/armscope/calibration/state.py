@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain
 
@@ -37,12 +37,12 @@ class State:
         base, tools, constants, compliances, turns = np.split(step, np.cumsum(lengths))
         base = base.reshape(n_bases, 6)
         return State(
-            rotations=self.rotations @ Rotation.from_rotvec(base[:, 3:]).as_matrix(),
+            rotations=self.rotations @ turned_by(base[:, 3:]),
             translations=self.translations + np.einsum("rij,rj->ri", self.rotations, base[:, :3]),
             tools=self.tools + tools.reshape(n_tools, 3),
             constants=self.constants + constants,
             compliances=self.compliances + compliances,
-            tool_rotations=self.tool_rotations @ Rotation.from_rotvec(turns.reshape(n_tools, 3)).as_matrix(),
+            tool_rotations=self.tool_rotations @ turned_by(turns.reshape(n_tools, 3)),
         )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.recordings import Recordings
@@ -14,6 +15,9 @@ SAME_POSE_RAD = 5e-4
 """Joint angles within this distance count as the same pose visited again."""
 
 MOST_ROWS_FOR_REPEATS = 50_000
+
+MOST_CANDIDATES = 50
+"""Pairs per point up to which looking at each costs less than the import of a tree."""
 
 
 @dataclass(frozen=True)
@@ -152,11 +156,6 @@ def _one_context(name: str, unit: str, values: Array) -> Context:
 
 def _repeats(recordings: Recordings) -> Repeats:
     looked_at = min(len(recordings), MOST_ROWS_FOR_REPEATS)
-    # these take long to import, and the reader's errors come before them
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
     some = recordings.rows(slice(looked_at))
     _, group = np.unique(np.char.add(some.run, np.char.add("\n", some.target)), return_inverse=True)
     rows = np.column_stack([group, some.motor_angles, some.positions])
@@ -164,10 +163,12 @@ def _repeats(recordings: Recordings) -> Repeats:
     copies = looked_at - len(first)
     single = np.sort(first)
     # rows of other runs and targets stand far away, so that they are never neighbours
-    tree = cKDTree(np.column_stack([group[single] * 100.0, some.motor_angles[single]]))
-    pairs = tree.query_pairs(SAME_POSE_RAD, output_type="ndarray")
+    pairs = neighbours(np.column_stack([group[single] * 100.0, some.motor_angles[single]]), SAME_POSE_RAD)
     if not len(pairs):
         return Repeats(copies, 0, 0, float("nan"), looked_at)
+    from scipy.sparse import coo_array  # these take long to import, and are seldom needed
+    from scipy.sparse.csgraph import connected_components
+
     links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(single), len(single)))
     _, label = connected_components(links, directed=False)
     size = np.bincount(label)
@@ -178,3 +179,26 @@ def _repeats(recordings: Recordings) -> Repeats:
     visits = int((size > 1).sum())
     scatter = float(np.sqrt(np.sum(about_mean**2) / (3 * (len(positions) - visits))))
     return Repeats(copies, visits, len(positions), scatter, looked_at)
+
+
+def neighbours(points: Array, reach: float) -> NDArray[np.intp]:
+    """(K, 2) pairs of points (N, d) that lie within ``reach`` of each other.
+
+    Neighbours are neighbours in any direction: of the points in the order of one, few need to be looked at. Where many
+    do, as in poses on a grid, a tree finds them.
+    """
+    direction = np.random.default_rng(0).normal(size=points.shape[1])
+    along = points @ (direction / np.linalg.norm(direction))
+    order = np.argsort(along, kind="stable")
+    # rounding must not lose a pair at the very edge
+    end = np.searchsorted(along[order], along[order] + reach * (1 + 1e-9) + 1e-12 * np.abs(along).max(), side="right")
+    count = end - np.arange(len(points)) - 1
+    if count.sum() > MOST_CANDIDATES * len(points):
+        from scipy.spatial import cKDTree  # slow to import
+
+        return np.asarray(cKDTree(points).query_pairs(reach, output_type="ndarray"))
+    first = np.repeat(np.arange(len(points)), count)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count)
+    pairs = np.column_stack([order[first], order[second]])
+    apart = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
+    return np.sort(pairs[apart <= reach], axis=1)

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.calibration.model import SetUp
 from armscope.calibration.state import State
@@ -121,6 +120,8 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
 
 def _tool_spread(expected: Array, quaternions: Array, group: NDArray[np.intp]) -> float:
     """Median angle of the tool's orientation on the flange to its mean, per base frame and tool, rad."""
+    from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
     on_flange = Rotation.from_matrix(np.swapaxes(expected, 1, 2)) * Rotation.from_quat(quaternions, scalar_first=True)
     away = np.empty(len(group))
     for number in np.unique(group):

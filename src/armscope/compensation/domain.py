@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import cKDTree
 
 from armscope.core.types import Array
 
@@ -94,6 +93,8 @@ class Domain:
 
     def nearest(self, inputs: ArrayLike) -> Array:
         """(N,) distance to the nearest identification row, in standard deviations per input (root mean square)."""
+        from scipy.spatial import cKDTree  # slow to import, and whoever writes a domain asks no distance
+
         z = (np.asarray(inputs, dtype=float) - self.mean) / self.scale
         distance: Array = cKDTree(self.standardised_rows).query(z)[0] / np.sqrt(len(self.inputs))
         return distance

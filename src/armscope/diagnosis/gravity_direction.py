@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.diagnosis.constants import GRAVITY
@@ -95,7 +95,7 @@ def estimate_gravity_direction(
 def turned(arm: Arm, tilt: Array) -> Arm:
     """The arm with gravity turned by ``tilt`` (2,) rad about two axes across its stated direction."""
     across = np.linalg.svd(arm.gravity[None, :])[2][1:]
-    gravity = Rotation.from_rotvec(tilt @ across).apply(arm.gravity)
+    gravity = turned_by(tilt @ across) @ arm.gravity
     return build_arm(arm.description.model_copy(update={"gravity_m_s2": tuple(float(g) for g in gravity)}))
 
 

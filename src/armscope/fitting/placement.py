@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
@@ -24,10 +23,7 @@ def rigid_motion(points: Array, measured: Array) -> tuple[Array, Array]:
     here, there = np.median(points, axis=0), np.median(measured, axis=0)
     if len(points) < 2:
         return np.eye(3), there - here
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # points on a line leave a turn open: any will do for a start
-        turn, _ = Rotation.align_vectors(measured - there, points - here)
-    rotation = turn.as_matrix()
+    rotation = nearest_rotation((measured - there).T @ (points - here))  # a line leaves a turn open: any is a start
     return rotation, there - rotation @ here
 
 
@@ -54,7 +50,7 @@ class Frames:
         """A step further: twists (translation, rotation) of the bases in their own axes, then the tools' offsets."""
         twists = step[: 6 * len(self.rotations)].reshape(-1, 6)
         return Frames(
-            self.rotations @ Rotation.from_rotvec(twists[:, 3:]).as_matrix(),
+            self.rotations @ turned_by(twists[:, 3:]),
             self.translations + np.einsum("rij,rj->ri", self.rotations, twists[:, :3]),
             self.tools + step[6 * len(self.rotations) :].reshape(-1, 3),
         )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
@@ -65,6 +64,8 @@ def _tool_turns(
         rows = np.flatnonzero(recordings.oriented & (which_tool == number))
         if not len(rows):
             continue
+        from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
         placed = np.array([bases[b].rotation for b in which_base[rows]]) @ modelled[rows]
         measured = Rotation.from_quat(recordings.quaternions[rows], scalar_first=True)
         on_flange = Rotation.from_matrix(placed).inv() * measured

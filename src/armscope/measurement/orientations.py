@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel
 from armscope.measurement.constants import WEIGHTS
@@ -36,6 +36,8 @@ class OrientationChannel(Channel):
 
     def residual(self, model: FittedModel, posture: Posture) -> Array:
         """(n, 3) rotation vectors from modelled to measured orientations, base axes, rad; NaN where not measured."""
+        from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
         recordings = posture.scene.recordings
         left, known = np.full((len(recordings), 3), np.nan), recordings.oriented
         measured = Rotation.from_quat(recordings.quaternions[known], scalar_first=True).as_matrix()
@@ -61,10 +63,7 @@ class OrientationChannel(Channel):
             axis = AXES.index(product.direction.axis) if product.direction.axis in AXES else -1
             if product.driver.kind.startswith("on target") and product.direction.location == "tool" and axis >= 3:
                 turns.setdefault(tool_key(product.driver), np.zeros(3))[axis - 3] = value
-        turned = {
-            key: Rotation.from_rotvec(turns.get(key, np.zeros(3))).as_matrix() @ turn
-            for key, turn in model.tool_turns.items()
-        }
+        turned = {key: turned_by(turns.get(key, np.zeros(3))) @ turn for key, turn in model.tool_turns.items()}
         return replace(model, tool_turns=turned)
 
     def doubt(self, residual: Array) -> tuple[str, str] | None:
@@ -85,6 +84,8 @@ class OrientationChannel(Channel):
 
     def tools_apart(self, model: FittedModel, target: str) -> float:
         """Largest angle between a target's tool and its tool in the first run, rad."""
+        from scipy.spatial.transform import Rotation  # slow to import, and few tables hold orientations
+
         turns = [turn for (of, _), turn in model.tool_turns.items() if of == target]
         rotations = Rotation.from_matrix(turns or [np.eye(3)])
         return float((rotations[0].inv() * rotations).magnitude().max())

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel
 from armscope.physics.effect import AXES, Direction, Part, Placed, Term
@@ -62,7 +62,7 @@ class PositionChannel(Channel):
 
 def moved_base(base: Base, twist: Array) -> Base:
     """The base after a twist (translation m, rotation rad) in its own axes."""
-    turn = Rotation.from_rotvec(twist[3:]).as_matrix()
+    turn = turned_by(twist[3:])
     return Base(base.rotation @ turn, base.translation + base.rotation @ twist[:3])
 
 

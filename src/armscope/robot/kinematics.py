@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 
@@ -186,9 +187,7 @@ def _twisted(rotation: Array, origin: Array, twist: Array | None) -> tuple[Array
         return rotation, origin
     twist = np.asarray(twist, dtype=float)
     shifted = origin + (rotation @ twist[..., :3, None])[..., 0]
-    from scipy.spatial.transform import Rotation  # takes as long as all else that a wrong input needs
-
-    return rotation @ Rotation.from_rotvec(twist[..., 3:]).as_matrix(), shifted
+    return rotation @ turned_by(twist[..., 3:]), shifted
 
 
 def _inverse(fixed: Array) -> Array:

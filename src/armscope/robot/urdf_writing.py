@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
 
@@ -93,12 +92,16 @@ def set_inertial(link: ET.Element, mass: float, centre: Array, inertia: Array) -
 
 def origin_of(placement: Array) -> dict[str, str]:
     """A placement (4, 4) as the attributes of an origin."""
+    from scipy.spatial.transform import Rotation  # slow to import
+
     turn = Rotation.from_matrix(placement[:3, :3]).as_euler("xyz", suppress_warnings=True)
     return {"xyz": _words(placement[:3, 3]), "rpy": _words(turn)}
 
 
 def placement_of(origin: ET.Element) -> Array:
     """(4, 4) of an origin's attributes."""
+    from scipy.spatial.transform import Rotation  # slow to import
+
     placement = np.eye(4)
     placement[:3, 3] = _numbers(origin.get("xyz", "0 0 0"))
     placement[:3, :3] = Rotation.from_euler("xyz", _numbers(origin.get("rpy", "0 0 0"))).as_matrix()

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pandas as pd
-from scipy.spatial.transform import Rotation
 
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
@@ -91,7 +91,7 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
     errors = np.array([told.get(axis, 0.0) for axis in AXES]) * np.array([1e-3, 1e-3, 1e-3, 1, 1, 1])
     turned = errors[3:] if np.abs(errors[3:]).max() > LEAST_TURN else np.zeros(3)
     moved = np.eye(4)
-    moved[:3, 3], moved[:3, :3] = errors[:3], Rotation.from_rotvec(turned).as_matrix()
+    moved[:3, 3], moved[:3, :3] = errors[:3], turned_by(turned)
     stated, turn = origins_of_file(arm)[joint - 1], turns_of_file(arm)[joint - 1]
     corrected: Array = stated @ turn @ moved @ np.linalg.inv(turn)
     return corrected
@@ -99,5 +99,7 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
 
 def place_and_angles(origin: Array) -> tuple[Array, Array]:
     """xyz (m) and roll, pitch, yaw (rad) of a placement (4, 4), as a URDF writes them."""
+    from scipy.spatial.transform import Rotation  # slow to import, and of URDFs alone
+
     angles = Rotation.from_matrix(origin[:3, :3]).as_euler("xyz", suppress_warnings=True)
     return origin[:3, 3] + 0.0, angles + 0.0  # no minus before a zero

@@ -1,0 +1,29 @@
+"""Turns of many frames at once, for whom scipy's `Rotation` would cost more in its import than in its work."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+
+SMALL_TURN = 1e-4
+"""Below it (rad) the series of sin(a)/a and (1 - cos(a))/a^2 are exact to all digits after two terms."""
+
+
+def turned_by(vectors: Array) -> Array:
+    """(..., 3, 3) rotation matrices of rotation vectors (..., 3), rad (Rodrigues 1840)."""
+    angle = np.linalg.norm(vectors, axis=-1)[..., None, None]
+    small = angle < SMALL_TURN
+    safe = np.where(small, 1.0, angle)
+    first = np.where(small, 1 - angle**2 / 6, np.sin(safe) / safe)
+    second = np.where(small, 0.5 - angle**2 / 24, 2 * (np.sin(safe / 2) / safe) ** 2)
+    across = cross_matrices(vectors)
+    return np.asarray(np.eye(3) + first * across + second * (across @ across))
+
+
+def cross_matrices(vectors: Array) -> Array:
+    """(..., 3, 3) matrices that take the cross product of vectors (..., 3) with what they are multiplied by."""
+    x, y, z = np.moveaxis(np.asarray(vectors, dtype=float), -1, 0)
+    zero = np.zeros_like(x)
+    rows = [np.stack(row, axis=-1) for row in ((zero, -z, y), (z, zero, -x), (-y, x, zero))]
+    return np.stack(rows, axis=-2)
