@@ -201,7 +201,8 @@ def test_a_table_without_names_is_read_by_its_place(tmp_path):
         ("a,b,c,d\n1,2,3,4\n", "motor angles"),
         ("q1,q2,q3,q4\n1,2,3,4\n", "measured x, y, z"),
         ("", "lines"),
-        ("q1,q2,x,y,z\n", "lines"),
+        ("q1,q2,x,y,z\n", "'1 line'"),
+        ("theta d a alpha\n0 0.13 0 90\n0 0 -0.6 0\n", "D-H rows.*armscope init -"),
     ],
 )
 def test_what_looks_like_no_recordings_is_one_error(text, words, tmp_path):

@@ -39,7 +39,7 @@ def test_numbers_alone_have_no_header_and_old_encodings_are_read(tmp_path: Path)
 
 @pytest.mark.parametrize(
     ("text", "found"),
-    [("a,b,c,d\n", "1 lines"), ("a,b,c," + "d" * (LONGEST_NAME + 1) + "\n1,2,3,4\n", "ddd")],
+    [("a,b,c,d\n", "1 line"), ("a,b,c," + "d" * (LONGEST_NAME + 1) + "\n1,2,3,4\n", "ddd")],
 )
 def test_what_is_no_table_is_refused(text: str, found: str, tmp_path: Path) -> None:
     path = tmp_path / "raw.csv"

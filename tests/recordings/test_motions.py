@@ -40,6 +40,9 @@ def test_a_table_of_measured_points_is_none(tmp_path: Path) -> None:
     [
         (lambda t: t.drop(columns="time_s"), "no column time_s"),
         (lambda t: t.drop(columns="tau1_nm"), "no column tau1_nm"),
+        (lambda t: t.drop(columns="tau1_nm").assign(tau_1=1.0), "mean 'tau_1'"),
+        (lambda t: t.drop(columns="q2_m"), "has 1 of them: is this the right robot"),
+        (lambda t: t.rename(columns={"q2_m": "q2 rad"}), "mean 'q2 rad'"),
         (lambda t: t.drop(columns=["tau1_nm", "f2_n"]), "what the motors did stands in"),
         (lambda t: t.assign(q1_rad=[10.0, 400.0, 20.0]), "row 3, column q1_rad.*q1_deg"),
         (lambda t: t.assign(q1_deg=1.0), "has a position already"),

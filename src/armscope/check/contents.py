@@ -163,7 +163,7 @@ def _repeats(recordings: Recordings) -> Repeats:
     copies = looked_at - len(first)
     single = np.sort(first)
     # rows of other runs and targets stand far away, so that they are never neighbours
-    pairs = neighbours(np.column_stack([group[single] * 100.0, some.motor_angles[single]]), SAME_POSE_RAD)
+    pairs = close_pairs(np.column_stack([group[single] * 100.0, some.motor_angles[single]]), SAME_POSE_RAD)
     if not len(pairs):
         return Repeats(copies, 0, 0, float("nan"), looked_at)
     from scipy.sparse import coo_array  # these take long to import, and are seldom needed
@@ -181,7 +181,7 @@ def _repeats(recordings: Recordings) -> Repeats:
     return Repeats(copies, visits, len(positions), scatter, looked_at)
 
 
-def neighbours(points: Array, reach: float) -> NDArray[np.intp]:
+def close_pairs(points: Array, reach: float) -> NDArray[np.intp]:
     """(K, 2) pairs of points (N, d) that lie within ``reach`` of each other.
 
     Neighbours are neighbours in any direction: of the points in the order of one, few need to be looked at. Where many

@@ -182,7 +182,11 @@ class _Reader(ColumnReader):
         for motor in range(1, count + 1):
             if motor not in found:
                 rule = f"the arm has motors q1 ... q{count}, each with its position (_rad, _deg; sliding: _m)"
-                cure = nearest(f"q{motor}_rad", self.table.columns)
+                others = [name for name in self.table.columns if not re.match(r"q[1-9]\d*_", str(name))]
+                slip = any(re.search(rf"q\D?{motor}(?!\d)", str(name), re.IGNORECASE) for name in others)
+                fewer = not slip and sorted(found) == list(range(1, motor)) and motor > 1
+                of_table = f"The table has {motor - 1} of them: is this the right robot for the recordings?"
+                cure = of_table if fewer else nearest(f"q{motor}_rad", others)
                 raise InputError(self.source, "line 1", f"no column q{motor}_rad", rule, cure)
         if max(found) > count:
             extra = f"q{max(found)}_{found[max(found)]}"
@@ -215,7 +219,7 @@ class _Reader(ColumnReader):
                 missing = [name for name in columns if name not in self.table]
                 if missing:
                     rule = f"{', '.join(columns)} come together"
-                    cure = nearest(missing[0], self.table.columns)
+                    cure = nearest(missing[0], [name for name in self.table.columns if name not in columns])
                     raise InputError(self.source, "line 1", f"no column {missing[0]}", rule, cure)
                 return kind, np.column_stack([self.required(name) for name in columns])
         rule = f"what the motors did stands in {torque[0]} ... or {current[0]} ..."

@@ -9,6 +9,13 @@ _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
 _TO_CSV = "Save it as CSV: a first line with the columns' names, then a row per point, separated by commas."
 
 
+def by_hand(names: Sequence[str], file: str) -> str:
+    """What to do about a file of whose columns none looks like an angle or a point."""
+    if {"a", "alpha", "d"} <= {name.strip().lower() for name in names}:
+        return f"D-H rows? `armscope init - -o robot.yaml < {file}` reads them."
+    return "Write the mapping by hand: docs/bring-your-recordings.md; of a program, write a table."
+
+
 def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:
     """What a first line says about a file that can't be read by its columns' names.
 

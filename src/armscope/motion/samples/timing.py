@@ -75,7 +75,7 @@ def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, A
     if len(back):
         row = int(rows[back[0] + 1])
         rule = f"time does not go back within a run ({time[back[0]]:.6g} stands before)"
-        cure = "Give every motion its own name in the column run."
+        cure = "Sort the rows by time, or give every motion its own name in the column run."
         raise InputError(motions.source, f"row {row + 2}, column time_s", float(time[back[0] + 1]), rule, cure)
     usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
     if usual <= 0 or 1 / usual < TIMING.slowest_hz:

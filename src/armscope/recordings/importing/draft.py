@@ -16,6 +16,7 @@ from armscope.recordings.importing.first_table import ForeignTable, first_table
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
+from armscope.recordings.other_formats import by_hand
 
 FEWEST_MOTORS = 2
 RADIANS_UP_TO = 2 * np.pi + 0.01
@@ -113,9 +114,8 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     points = _triple(table, taken=angles)
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
         if not found:
-            rule = f"no columns look like {what}"
-            cure = "Write the mapping by hand: docs/bring-your-recordings.md; of a program, write a table."
-            raise InputError(path, f"line {table.skip + 1}", ", ".join(table.names[:12]), rule, cure)
+            seen, line = ", ".join(table.names[:12]), f"line {table.skip + 1}"
+            raise InputError(path, line, seen, f"no columns look like {what}", by_hand(table.names, path.name))
     numbers = table.values[:, angles]
     largest = _largest(numbers)
     stated = stated_unit(table.names[angles[0]], _below(table, angles[0]), ANGLE_UNITS)

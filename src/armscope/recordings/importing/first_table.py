@@ -73,7 +73,9 @@ def first_table(path: Path) -> ForeignTable:
         lines = _first_lines(path, encoding)
     filled = [line for line in lines if line.strip()]
     if len(filled) < 2:
-        raise InputError(path, "", f"{len(filled)} lines", "a table has a header or a row, and rows")
+        raise InputError(
+            path, "", f"{len(filled)} line{'s' * (len(filled) != 1)}", "a table has a header or a row, and rows"
+        )
     delimiter, cut = _delimiter(filled)
     width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
     if width > MOST_COLUMNS:

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from armscope.check import contents
-from armscope.check.contents import neighbours
+from armscope.check.contents import close_pairs
 
 RNG = np.random.default_rng(0)
 SPREADS = {
@@ -22,4 +22,4 @@ def test_neighbours_are_those_that_a_tree_finds(points, most, monkeypatch):
     monkeypatch.setattr(contents, "MOST_CANDIDATES", most)
     for reach in (3e-3, 0.01, 0.5):
         expected = {tuple(sorted(pair)) for pair in cKDTree(points).query_pairs(reach)}
-        assert {tuple(sorted(pair)) for pair in neighbours(points, reach).tolist()} == expected
+        assert {tuple(sorted(pair)) for pair in close_pairs(points, reach).tolist()} == expected
