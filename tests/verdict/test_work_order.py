@@ -15,6 +15,7 @@ from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
 from armscope.report.pages.diagnosis import write_report
+from armscope.report.sections import locations
 from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
@@ -285,6 +286,7 @@ def test_what_moved_over_the_time_of_a_session_is_fastened_not_corrected_by_a_cu
         placed = curves["joint 3", variant]
         part = Part(placed, np.full(len(placed.terms), 1e-4))
         task = task_of(Scene(case.arm, table), replace(cause, parts=(part,)), cause.effects[0])
+        assert re.search(r"by −[\d.]+ … \+[\d.]+ mrad", task.motion), "about its mean, which a zero takes up"
         assert (placed.effect.cure.commanded is not None) == corrects
         assert ("commanded = wanted - curve" in task.cure) == corrects
         assert ("correction table" in task.instruction) == corrects
@@ -352,5 +354,8 @@ def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
     assert [task.place for task in tasks] == ["joint 2", "joints 3 and 5"]
     assert "commanded = wanted - curve" in tasks[1].instruction
     assert tasks[1].then_mm == pytest.approx(rms(worth.left))
+    ranking = locations._ranking(replace(case.verdict, causes=(told,)))
+    assert "Unexplained curves at joints 3 and 5" in [place.name for place in ranking]
+    assert not [place for place in ranking if "minor effect" in place.name], "nothing stands twice"
     untold = work_order(replace(case.verdict, causes=(replace(told, share=0.01),)), worth).tasks
     assert "joints 3 and 5" not in [task.place for task in untold]

@@ -25,7 +25,7 @@ from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.schema import Background
-from armscope.verdict.sentences import cause_in_words, headline
+from armscope.verdict.sentences import TOLD, cause_in_words, headline
 
 Weigh = Callable[[FoundEffect, Sequence[Background]], FoundEffect]
 """An effect and the small errors everywhere, with their shares: the effect, minor where it is one of them."""
@@ -107,6 +107,11 @@ def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | No
         text=cause_in_words(cause.family, members, everywhere),
         cure=cure_of_family(cause.family, members, cause.everywhere),
     )
+
+
+def minor_and_told(causes: Sequence[Cause]) -> list[Cause]:
+    """Causes that a headline tells though each member by itself is minor: curves at several joints, say."""
+    return [cause for cause in causes if cause.minor and cause.members and cause.share > TOLD]
 
 
 def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:

@@ -100,7 +100,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
-        motion="" if said_already else _motion(scene, cause.parts),
+        motion="" if said_already else _motion(scene, cause.parts, about_mean=effect.nameless),
         instruction=instruction,
         cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
         confirm=effect.confirm,
@@ -190,8 +190,18 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
-    """The largest turn and shift of parts over the recorded rows, in words, with signs; sign -1: to undo them."""
+def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bool = False) -> str:
+    """The largest turn and shift of parts over the recorded rows, in words, with signs.
+
+    Args:
+        scene: the rows.
+        parts: that move.
+        sign: -1 to undo them.
+        about_mean: without what the joint's zero, the base or the tool may take up, too, as in a free curve.
+
+    Returns:
+        Which place moves how, from ... to.
+    """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
     for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)
@@ -205,6 +215,7 @@ def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1) -> str:
     for verb, found in amounts.items():
         if found:
             name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
+            amount = amount - amount.mean() if about_mean else amount
             if np.abs(amount).max() > 0:
                 told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
     return "; ".join(told)

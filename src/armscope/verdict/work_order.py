@@ -13,7 +13,7 @@ from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause
 from armscope.verdict.family_cures import cure_of_family
-from armscope.verdict.sentences import TOLD
+from armscope.verdict.importance import minor_and_told
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import SMALL, capitalised, enumerated, places_in_words
 
@@ -104,10 +104,9 @@ def _told_together(
 ) -> tuple[list[tuple[Cause, list[Repair]]], list[Repair]]:
     """Causes of minor members alone that the headline tells all the same, with their repairs; and all other repairs."""
     told = []
-    for cause in verdict.causes:
-        if cause.minor and cause.share > TOLD:
-            those = [each for each in single if each.effects[0].as_member in cause.members]
-            told += [(cause, those)] if those else []
+    for cause in minor_and_told(verdict.causes):
+        those = [each for each in single if each.effects[0].as_member in cause.members]
+        told += [(cause, those)] if those else []
     taken = {id(each) for _, those in told for each in those}
     return told, [each for each in single if id(each) not in taken]
 

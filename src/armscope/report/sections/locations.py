@@ -11,7 +11,9 @@ from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent
+from armscope.verdict.effects import UNKNOWN
+from armscope.verdict.importance import minor_and_told
+from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent, places_in_words
 
 LEAST_AGAINST = 5e-4
 """Shares as far below zero are told to be so."""
@@ -47,6 +49,12 @@ def _ranking(verdict: Diagnosis) -> list[Place]:
     found = findings(verdict)
     main, minor = main_and_minor(verdict.effects)
     places = [Place(card.title, f"#{card.anchor}", e.share) for card, e in zip(found["cards"], main, strict=True)]
+    for cause in minor_and_told(verdict.causes):
+        those = [effect for effect in minor if effect.as_member in cause.members]
+        minor = [effect for effect in minor if effect not in those]
+        where = places_in_words(list(dict.fromkeys(effect.location for effect in those)))
+        kind = "Unexplained curves" if cause.family == UNKNOWN else f"Minor {cause.family} effects"
+        places.append(Place(f"{kind} at {where}", "#minor", sum(effect.share for effect in those), quiet=True))
     if minor:
         name = f"{len(minor)} minor effect{'s' if len(minor) > 1 else ''}"
         places.append(Place(name, "#minor", sum(effect.share for effect in minor), quiet=True))
