@@ -27,3 +27,10 @@ def cross_matrices(vectors: Array) -> Array:
     zero = np.zeros_like(x)
     rows = [np.stack(row, axis=-1) for row in ((zero, -z, y), (z, zero, -x), (-y, x, zero))]
     return np.stack(rows, axis=-2)
+
+
+def turn_onto(points: Array, wanted: Array) -> Array:
+    """(3, 3) the rotation about the origin that brings points (N, 3) nearest to wanted ones (N, 3) (Kabsch 1976)."""
+    left, _, right = np.linalg.svd(wanted.T @ points)
+    proper = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0])
+    return np.asarray(left * proper @ right)

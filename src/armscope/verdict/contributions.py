@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.averages import rms
+from armscope.core.rotations import turn_onto
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
@@ -29,6 +30,8 @@ TRUSTED = 0.5
 """Rows that kept less of their weight look like bad shots, and take no part."""
 SEEN = 0.01
 """Share of the error from which small errors of a family have a switch."""
+FAR_TURN = 2e-3
+"""A turn (rad) whose second order is two micrometres at a metre: beyond it a base is turned back exactly."""
 MOST_CAUSES = 6
 """More major effects than this are taken together with the minor ones."""
 
@@ -116,7 +119,24 @@ class Ground:
         out, model = {id(part) for part in parts}, self.verdict.model
         kept, small = (tuple(p for p in some if id(p) not in out) for some in (model.parts, model.background))
         others = replace(model, parts=kept, background=small)
-        return self.free(1e3 * (self.posture.tool - others.posture(self.posture.scene).tool))
+        return self.free(1e3 * (self.posture.tool - self._brought_back(others.posture(self.posture.scene).tool)))
+
+    def _brought_back(self, points: Array) -> Array:
+        """(n, 3) points with the bases turned back where they lie far off, m.
+
+        A curve at the first joint may hold a mean of many degrees, which the base takes up; columns of a small turn
+        take up its first order alone, and leave millimetres that nobody sees.
+        """
+        points, there, run = points.copy(), self.posture.tool, self.posture.scene.recordings.run
+        for together in self.verdict.model.set_ups:
+            rows = np.isin(run, together)
+            if not rows.any():
+                continue
+            here, wanted = points[rows].mean(axis=0), there[rows].mean(axis=0)
+            turn = turn_onto(points[rows] - here, there[rows] - wanted)
+            if np.abs(turn - np.eye(3)).max() > FAR_TURN:
+                points[rows] = (points[rows] - here) @ turn.T + wanted
+        return points
 
     def left_and_before(self) -> tuple[Array, Array]:
         """(n, 3) each: with everything cured, and with nothing."""
