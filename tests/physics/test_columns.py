@@ -69,7 +69,6 @@ def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
         "tool_frame",
         "tool_turn",
         "base_wander",
-        "tool_wander",
         "link_wander",
     }
     expected -= {"parallelogram_geometry"} if arm.description.parallelogram is None else set()

@@ -158,12 +158,6 @@ class PlausibleSizes(Constants):
         unit="m",
     )
     wander_rad: float = constant(1e-4, "by which they lean meanwhile", "derived: that over 3 m", unit="rad")
-    marker_rad: float = constant(
-        1e-3,
-        "by which what shows the tool's orientation turns meanwhile, on the flange or as it is seen",
-        "judgement: spheres 0.1 m apart, one of them seen 0.1 mm elsewhere; one real arm with a marker was in view",
-        unit="rad",
-    )
 
 
 PLAUSIBLE = PlausibleSizes()

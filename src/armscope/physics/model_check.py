@@ -17,7 +17,7 @@ from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_pa
 from armscope.physics.loads import STATED_MASSES
 from armscope.physics.model_contents import PartFile
 from armscope.physics.registry import effects
-from armscope.physics.wander import WANDERS
+from armscope.physics.wander import BASE_WANDER, LINK_WANDER
 from armscope.robot import Arm
 
 DEEPEST_DRIVER = 4
@@ -39,7 +39,8 @@ class Reader:
     def __init__(self, arm: Arm, source: object) -> None:
         self.arm, self.source = arm, source
         self._definitions: dict[str, Effect] = {
-            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, *WANDERS, *effects())
+            effect.name: effect
+            for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, BASE_WANDER, LINK_WANDER, *effects())
         }
 
     def parts(self, contents: Sequence[PartFile], place: str) -> tuple[Part, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import AXES, Cure, Driver, Effect, Placed, Product, Term, term
+from armscope.physics.effect import Cure, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps
 from armscope.physics.thermal import growing_links
@@ -29,16 +29,6 @@ BASE_WANDER = Effect(
 )
 """Allowed for, never named: what stands out of it is a drift or a jump."""
 
-TOOL_WANDER = Effect(
-    "tool_wander",
-    "drift",
-    nowhere,
-    "What shows the tool's orientation turns a little in the course of the recording: on the flange, or as it is seen.",
-    "Measure one pose now and then.",
-    Cure("Nothing to cure."),
-)
-"""Allowed for, never named: neighbouring rows' orientations err alike, and a jump must stand out of that."""
-
 LINK_WANDER = Effect(
     "link_wander",
     "drift",
@@ -49,20 +39,14 @@ LINK_WANDER = Effect(
 )
 """Allowed for, never named: what follows the recorded temperature is thermal expansion."""
 
-WANDERS = (BASE_WANDER, TOOL_WANDER, LINK_WANDER)
-
 
 def wander(recordings: Recordings, set_ups: SetUps) -> list[Placed]:
     """A base that wanders slowly in the order of time, and stands a little elsewhere in each run of a set-up.
 
     A random walk in the waves that count, its cosines falling with their number (Karhunen-Loeve). In time where it is
-    recorded, else in the order of rows. All waves together, and every run, are as large as is plausible. Where
-    orientations were recorded, what shows them turns on the tool in the same way.
+    recorded, else in the order of rows. All waves together, and every run, are as large as is plausible.
     """
-    courses = list(_waves(recordings, FORM.wander_waves))
-    waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in courses]
-    if recordings.oriented.any():
-        waves += [_turning(driver, share, f"wave {k}") for k, driver, share in courses]
+    waves = [_wandering(driver, share, f"wave {k}") for k, driver, share in _waves(recordings, FORM.wander_waves)]
     if any(map(is_of_rows, waves)):
         waves = [_about_runs(wave, recordings) for wave in waves]
     together = [run for runs in set_ups if len(runs) > 1 for run in runs]
@@ -73,11 +57,6 @@ def _wandering(driver: Driver, share: float, variant: str) -> Placed:
     sizes = (PLAUSIBLE.wander_m,) * 3 + (PLAUSIBLE.wander_rad,) * 3
     terms = six_terms("base", driver)
     return Placed(BASE_WANDER, "base", terms, tuple(share * size for size in sizes), "time", variant=variant)
-
-
-def _turning(driver: Driver, share: float, variant: str) -> Placed:
-    terms = six_terms("tool", driver, axes=AXES[3:])
-    return Placed(TOOL_WANDER, "tool", terms, (share * PLAUSIBLE.marker_rad,) * 3, "time", variant=variant)
 
 
 def link_wander(arm: Arm, recordings: Recordings) -> list[Placed]:
