@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.summary.scatter import sides_by_order
-from armscope.recordings import Recordings
+from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.sentences import headline
@@ -46,7 +48,24 @@ def test_play_is_sized_by_the_order_of_rows(arm: Arm) -> None:
     value, stderr = told(verdict)["play"]
     assert abs(value - GAP) < 3 * stderr
     assert IN_ORDER in verdict.headline
-    assert "approach2" in verdict.effects[0].confirm
+
+
+def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(arm: Arm, tmp_path: Path) -> None:
+    """The cure's own words, followed to the letter: all columns, through a file."""
+    table = with_play(arm, GAP, 30)
+    (scatter,) = [each for each in diagnose(arm, table, QUICK).effects if each.effect == "unknown"]
+    names = [f"approach{motor}" for motor in range(1, arm.n_motors + 1)]
+    assert f"{names[0]} ... {names[-1]}" in scatter.cure
+    columns = {f"q{n}_rad": q for n, q in enumerate(table.motor_angles.T, 1)}
+    columns |= dict(zip(("x_mm", "y_mm", "z_mm"), 1e3 * table.positions.T, strict=True))
+    sides = {name: sides_by_order(table, n).astype(int) for n, name in enumerate(names, 1)}
+    if table.payload is not None:
+        columns["payload_kg"] = table.payload
+    pd.DataFrame({**columns, **sides}).to_csv(tmp_path / "recordings.csv", index=False)
+    verdict = diagnose(arm, read_recordings(tmp_path / "recordings.csv"), QUICK)
+    found = {(each.effect, each.location): each for each in verdict.effects}
+    (gap,) = found["backlash", "joint 2"].parameters
+    assert gap.value == pytest.approx(GAP, rel=0.1)
 
 
 @pytest.mark.parametrize("other", ["shuffled", "reversed sense"])

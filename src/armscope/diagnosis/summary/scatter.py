@@ -18,6 +18,8 @@ from armscope.verdict.effects import FoundEffect, Parameter
 
 NOTHING = "nothing in the table"
 """What scatter follows."""
+_CONFIRM = "Record the side of approach, speed, load and temperature, and repeat one pose many times."
+_CURE = "Find what the scatter follows (play, a loose coupling or encoder) before compensating anything."
 REASONLESS = "The joint stands a little elsewhere each time, for a reason that the table does not record."
 
 
@@ -45,7 +47,7 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
             family="unknown",
             driver=NOTHING,
             named_as="effect",
-            title=f"scatter at {location} that follows nothing in the table",
+            title=f"scatter at {location} that follows nothing in the table" + (" but its order" if play else ""),
             minor=False,
             parameters=(
                 Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(lever))),
@@ -58,12 +60,19 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
             inclusion=None,
             curve=None,
             physics=REASONLESS if play is None else f"{REASONLESS} {_by_order(play)}",
-            confirm="Record the side of approach, speed, load and temperature, and repeat one pose many times."
+            confirm=_CONFIRM
             if play is None
-            else f"Measure one pose many times, coming to it from both sides of {location}, and write the side into a "
-            f"column approach{scattered.motor} (-1 or +1): play then gets its name, and can be compensated.",
-            cure="Find what the scatter follows (play, a loose coupling or encoder) before compensating anything.",
+            else f"Measure one pose many times, coming to it from both sides of {location}.",
+            cure=_CURE if play is None else _with_sides(len(moved)),
         )
+
+
+def _with_sides(motors: int) -> str:
+    """What names the play, and gives its compensation."""
+    return (
+        f"Write the side from which every joint came into columns approach1 ... approach{motors} (-1 or +1, 0 where it "
+        "did not move) and diagnose again: play then gets its name, and can be compensated. Until then change nothing."
+    )
 
 
 def rest_of_a_curve(scatter: FoundEffect, named: Sequence[FoundEffect]) -> bool:
