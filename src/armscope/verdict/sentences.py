@@ -72,9 +72,11 @@ def headline(verdict: Diagnosis) -> str:
     if doubt:
         return f"These recordings cannot be relied on; do not act on anything below: {_small(doubt)}."
     if verdict.answer == "nothing missing":
+        rounded = any(notice.kind == "rounded angles" for notice in verdict.notices)
+        digits = " (some of it from rounded angles: record more digits)" if rounded else ""
         return (
             f"Nothing is missing: once base and tool are placed, the model matches the recordings to "
-            f"{millimetres(verdict.residual_after_mm)} per axis, which is noise."
+            f"{millimetres(verdict.residual_after_mm)} per axis, which is noise{digits}."
         )
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."

@@ -41,6 +41,7 @@ def test_rounding_is_noise_of_known_size_and_no_scatter_of_a_joint(arm: Arm) -> 
     assert verdict.noise_mm == pytest.approx(verdict.residual_after_mm, rel=0.15)
     assert verdict.noise_mm > 3 * NOISE_MM
     assert "rounded angles" in verdict.noise_source
+    assert "record more digits" in verdict.headline
 
 
 def test_poses_commanded_in_round_numbers_have_no_such_noise(arm: Arm) -> None:
@@ -48,6 +49,7 @@ def test_poses_commanded_in_round_numbers_have_no_such_noise(arm: Arm) -> None:
     verdict = diagnose(arm, table, QUICK)
     assert verdict.answer == "nothing missing"
     assert said_of_rounding(verdict) == []
+    assert "digits" not in verdict.headline
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.15)
 
 
