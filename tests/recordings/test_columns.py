@@ -65,3 +65,9 @@ def test_ranges_are_those_of_the_readers_own_refusals():
     table = pd.DataFrame({"q1_deg": [721.0]})
     with pytest.raises(InputError, match="two turns"):
         ColumnReader(table, "table").motor_angles(1)
+
+
+def test_the_position_of_a_slide_is_refused_with_what_to_do(tmp_path):
+    table = write(tmp_path, "q1_rad,q2_rad,q3_m,q4_rad,x_mm,y_mm,z_mm", "0.1,0.2,0.05,0.3,1,2,3")
+    with pytest.raises(InputError, match=r"q3_m.*this one slides.*hold_joints"):
+        read_recordings(table)

@@ -198,6 +198,7 @@ class Names:
         """
         matches = (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.columns)
         found = {int(m[1]): m[0] for m in matches if m}
+        self._refuse_slides()
         count = n_motors if n_motors is not None else max(found, default=0)
         if count == 0:
             cure = self._how_to_name_angles()
@@ -214,6 +215,16 @@ class Names:
             cure = "Is this the right robot for the recordings?"
             raise self._error(found[max(found)], f"the arm has {count} motors", cure)
         return [found[motor] for motor in range(1, count + 1)]
+
+    def _refuse_slides(self) -> None:
+        """Poses of joints that slide: rows with the slide at one place are those of an arm without it."""
+        slide = next((name for name in self.columns if re.fullmatch(r"q[1-9]\d*_m", name)), None)
+        if slide is not None:
+            cure = (
+                f"Keep the rows of one place of this slide, take {slide} out, count the motors that turn from q1, and "
+                "state the place in robot.yaml, by the joint's name: hold_joints: {name: m}."
+            )
+            raise self._error(slide, "measured points are diagnosed for joints that turn; this one slides", cure)
 
     def _how_to_name_angles(self) -> str:
         """What to do about a table of whose columns none is called as a motor's angle."""
