@@ -9,7 +9,7 @@ import pytest
 
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.inference.problem import prior_costs
-from armscope.physics.backgrounds import ELASTIC, FAMILIES, SOFT, backgrounds
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, SOFT, backgrounds
 from armscope.physics.drift import Pause, drift_with_pauses
 from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
@@ -86,7 +86,7 @@ def test_a_drift_leaves_with_one_more_effect_of_the_base_where_there_are_pauses(
 
 def test_tolerances_are_free_and_other_backgrounds_pay(space: EffectSpace) -> None:
     assert [family.name for family in space.families] == list(FAMILIES)
-    assert [family.is_priced for family in space.families] == [False, True, True, True, True]
+    assert [family.is_priced for family in space.families] == [family != GEOMETRIC for family in FAMILIES]
     geometric, elastic, *_ = space.families
     scale = np.full(len(space.layout.terms), 1000.0)
     # the whole tolerance of a millimetre, of columns that move the tool by a metre per metre

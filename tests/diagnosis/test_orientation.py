@@ -69,6 +69,39 @@ def test_a_turn_counts_beside_a_shift_by_the_ratio_of_their_noises() -> None:
     assert seen.before_mrad > 1.3 * seen.noise_mrad
 
 
+def seen_from_one_side(table: Recordings, seed: int, bent: float) -> Recordings:
+    """Orientations that err by a milliradian with the side that the tool turns to the instrument, by own formulas."""
+    rng = np.random.default_rng(seed)
+    turns = Rotation.from_quat(table.quaternions, scalar_first=True)
+    side = turns.inv().apply(rng.normal(size=3))
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    error = side @ rng.normal(size=(3, 3)) + bent * side * np.roll(side, 1, axis=1)
+    error *= 1e-3 / np.sqrt(np.mean(error**2))
+    return replace(table, orientation=(turns * Rotation.from_rotvec(error)).as_quat(scalar_first=True))
+
+
+@pytest.mark.parametrize(("seed", "bent"), [(0, 0.0), (1, 1.5)])
+def test_what_goes_with_the_side_that_is_seen_is_the_instruments(seed: int, bent: float) -> None:
+    """On a smooth path neighbouring attitudes err alike: that was told as up to eight jumps of the tool."""
+    arm = arm_named("six-axis")
+    table, rng = one_run(arm, 200, seed), np.random.default_rng(seed)
+    course = np.outer(np.linspace(0, 2 * np.pi, 200), rng.uniform(1, 4, 6)) + rng.uniform(0, 6, 6)
+    table.motor_angles[:] = table.motor_angles.mean(0) + 1.4 * table.motor_angles.std(0) * np.sin(course)
+    wanted: Wanted = {("joint_offset", "joint 3"): [4e-4]}
+    table = recorded(arm, table, wanted, POINT_MM, seed + 1, turn_noise_mrad=TURN_MRAD)
+    verdict = diagnose(arm, seen_from_one_side(table, seed, bent), QUICK)
+    assert names(verdict) == {("joint_offset", "joint 3")}
+    assert verdict.orientations is not None
+    assert verdict.orientations.instrument_mrad == pytest.approx(1.0, rel=0.1)
+    assert verdict.orientations.noise_mrad == pytest.approx(TURN_MRAD, rel=0.1)
+
+
+def test_orientations_without_such_errors_have_none() -> None:
+    verdict = diagnose(*oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}), QUICK)
+    assert verdict.orientations is not None
+    assert verdict.orientations.instrument_mrad == 0
+
+
 def test_what_hardly_moves_the_point_shows_in_the_turn() -> None:
     """The tool point lies nearly on the last axis: what its gear does is seen by orientations alone."""
     wave: Wanted = {("gear_eccentricity", "joint 6"): [1.2e-3, 0.0]}

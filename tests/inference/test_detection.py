@@ -28,7 +28,7 @@ from ..diagnosis.test_diagnose import QUICK
 
 ROWS, NOISE_MM = 80, 0.03
 DRAWS = 150
-PERFECT = (0, 0, 0, 0, 0)
+PERFECT = (0, 0, 0, 0, 0, 0)
 
 
 @pytest.fixture(scope="module")

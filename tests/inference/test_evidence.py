@@ -17,14 +17,15 @@ from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem, prior_costs, prior_variances
 from armscope.measurement.row_weights import RowWeights
-from armscope.physics.backgrounds import backgrounds
+from armscope.physics.backgrounds import FAMILIES, backgrounds
+from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.registry import library
 
 from ..diagnosis.planted import planted
 
 ROWS = 40
-PERFECT = (0, 0, 0, 0, 0)
+PERFECT = (0, 0, 0, 0, 0, 0)
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +55,7 @@ def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndar
     assert problem.equations.n == 3 * ROWS
 
 
-@pytest.mark.parametrize("background", [PERFECT, (4, 0, 0, 0, 0), (3, 2, 1, 0, 0)])
+@pytest.mark.parametrize("background", [PERFECT, (4, 0, 0, 0, 0, 0), (3, 2, 1, 0, 0, 0)])
 def test_evidence_is_the_density_of_the_data(
     setting: tuple[Problem, np.ndarray, np.ndarray], background: BackgroundSizes
 ) -> None:
@@ -100,7 +101,7 @@ def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.nda
     """With noise known (not re-estimated), removal by the Savage-Dickey ratio is exact."""
     problem, *_ = setting
     chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
-    for background in (PERFECT, (4, 2, 1, 0, 0)):
+    for background in (PERFECT, (4, 2, 1, 0, 0, 0)):
         whole = evaluate(problem, chosen, background, 0.05)
         fixed = Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
         whole = evaluate(fixed, chosen, background, fixed.least_noise)
@@ -124,7 +125,8 @@ def test_pinning_an_effect_is_removing_it_where_nothing_else_holds_it(
 def test_a_larger_library_makes_a_name_dearer() -> None:
     arm, table = planted("six-axis", {}, ROWS, 0.03, seed=1)
     frames = free_frames(table, False)
-    few = build_model_space(frames, [[], [], [], [], []], [p for p in library(arm, table) if p.name == "joint_offset"])
-    many = build_model_space(frames, [[], [], [], [], []], library(arm, table))
+    none: list[list[Placed]] = [[] for _ in FAMILIES]
+    few = build_model_space(frames, none, [p for p in library(arm, table) if p.name == "joint_offset"])
+    many = build_model_space(frames, none, library(arm, table))
     cheap, dear = prior_costs(few)[0], prior_costs(many)[0]
     assert dear > cheap + 2

@@ -29,11 +29,11 @@ class BackgroundPriors(Constants):
     )
     wander_shares: tuple[float, ...] = constant(
         (0.0, 0.03, 0.1, 0.3, 1.0),
-        "the same of the set-up's wander",
+        "the same of the set-up's wander, and of orientations' errors",
         "judgement: from a hundredth of a millimetre to a workshop between morning and noon",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0, 0, 0), (2, 0, 0, 0, 0), (4, 0, 0, 0, 0), (3, 3, 2, 2, 0)),
+        ((0, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0), (4, 0, 0, 0, 0, 0), (3, 3, 2, 2, 0, 3)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",

@@ -138,7 +138,7 @@ def residuals(model: FittedModel, rows: Measured) -> ChannelResiduals:
                 values[at] = channel.residual(model, posture)
 
     table.each_part(model, of_part)
-    table._left = model, ChannelResiduals(left)
+    table._left = model, ChannelResiduals(left, {channel: channel.own_values(model) for channel in left})
     return table._left[1]
 
 

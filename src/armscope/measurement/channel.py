@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +54,10 @@ class Channel(ABC):
         """The model with the channel's own free terms moved by steps, SI units; other terms don't count."""
         return model
 
+    def own_values(self, model: FittedModel) -> int:
+        """How many values of the model only this channel sees, which take some of its noise up."""
+        return 0
+
     def doubt(self, residual: Array) -> tuple[str, str] | None:
         """(kind, sentence) why readings can't be the arm's, by what the free terms leave (N, width); None: they can."""
         return None
@@ -73,9 +77,11 @@ class ChannelResiduals:
 
     Attributes:
         by_channel: (N, width) in each channel's unit, NaN where not measured; the reference comes first.
+        own_values: how many values of the model only this channel sees; none where it is not named.
     """
 
     by_channel: Mapping[Channel, Array]
+    own_values: Mapping[Channel, int] = field(default_factory=dict)
 
     @property
     def points_mm(self) -> Array:

@@ -15,6 +15,7 @@ from armscope.measurement.constants import WEIGHTS
 from armscope.physics.effect import AXES, Direction, Placed, Term
 from armscope.physics.frames import ToolKey, tool_key, tool_turns
 from armscope.physics.model import FittedModel
+from armscope.physics.orientation_error import ORIENTATION_ERROR
 from armscope.physics.scene import Posture
 from armscope.recordings import Recordings
 
@@ -42,7 +43,7 @@ class OrientationChannel(Channel):
         left, known = np.full((len(recordings), 3), np.nan), recordings.oriented
         measured = Rotation.from_quat(recordings.quaternions[known], scalar_first=True).as_matrix()
         bases = model.base_turns(recordings.run[known])
-        modelled = posture.frames.tool_rotation[known] @ model.tool_turns_of(recordings)[known]
+        modelled = posture.seen_rotation[known] @ model.tool_turns_of(recordings)[known]
         turned = np.swapaxes(bases, 1, 2) @ measured @ np.swapaxes(modelled, 1, 2)
         left[known] = Rotation.from_matrix(turned).as_rotvec()
         return left
@@ -65,6 +66,11 @@ class OrientationChannel(Channel):
                 turns.setdefault(tool_key(product.driver), np.zeros(3))[axis - 3] = value
         turned = {key: turned_by(turns.get(key, np.zeros(3))) @ turn for key, turn in model.tool_turns.items()}
         return replace(model, tool_turns=turned)
+
+    def own_values(self, model: FittedModel) -> int:
+        """The values by which orientations err with their attitude."""
+        parts = (part for part in model.everything if part.placed.effect is ORIENTATION_ERROR)
+        return sum(int(np.count_nonzero(part.values)) for part in parts)
 
     def doubt(self, residual: Array) -> tuple[str, str] | None:
         """Too few of them, or so far from the arm's that they are another frame's."""

@@ -56,16 +56,19 @@ class RowNoise:
         of_channels = [ChannelWeights(reference, weight, self.nominal_weight, whitening)]
         for channel, residual in others:
             noise = robust.scale_of(white / self.uncertainty[:, None], least)
-            of_channels.append(self._beside(channel, residual, rule, noise))
+            of_channels.append(self._beside(channel, residual, rule, noise, left.own_values.get(channel, 0)))
         return RowWeights(tuple(of_channels), self.independence_weight)
 
-    def _beside(self, channel: Channel, residual: Array, rule: robust.Rule, noise: float) -> ChannelWeights:
+    def _beside(
+        self, channel: Channel, residual: Array, rule: robust.Rule, noise: float, own_values: int
+    ) -> ChannelWeights:
         """Weights of another channel beside the reference, whose noise (mm) it is scaled to."""
         known = np.isfinite(residual).all(axis=1)
         nominal = np.where(known, self.independence_weight, 0.0)
         weight = nominal.copy()
         weight[known] *= rule(residual[known], np.ones(int(known.sum())), channel.floor)
-        scale = 1e-3 * noise / robust.scale_of(residual[known], channel.floor)
+        left = 1 - own_values / max(1, residual[known].size)
+        scale = 1e-3 * noise * np.sqrt(left) / robust.scale_of(residual[known], channel.floor)
         return ChannelWeights(channel, weight, nominal, scale=scale)
 
 

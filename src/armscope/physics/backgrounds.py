@@ -13,6 +13,7 @@ import numpy as np
 from armscope.physics import elastic, geometric, transmission
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Placed
+from armscope.physics.orientation_error import orientation_errors
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
 from armscope.physics.soft_start import soft_starts
@@ -23,7 +24,9 @@ from armscope.robot import Arm
 GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT = "geometric", "elastic", "transmission", "drift"
 SOFT = "soft start"
 """How much softer drives are under small loads: no soft arm need have it, so its size is learned by itself."""
-FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT)
+ORIENTATION = "orientation"
+"""How smoothly the orientations' instrument errs: nothing of the arm, and no point moves by it."""
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT, ORIENTATION)
 MENDED = {GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,)}
 """As what families are told: who mends one of the same, mends the others."""
 MASSES = "mass"
@@ -31,7 +34,7 @@ MASSES = "mass"
 
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
-    """By family: D-H constants, what gives way, the first waves per turn of all gears, a base's wander, soft starts.
+    """By family: D-H constants, what gives way, gears' first waves, a base's wander, soft starts, orientations' errors.
 
     Args:
         arm: the nominal arm.
@@ -54,6 +57,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
         DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
         SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
+        ORIENTATION: orientation_errors(recordings),
     }
 
 

@@ -158,6 +158,12 @@ class PlausibleSizes(Constants):
         unit="m",
     )
     wander_rad: float = constant(1e-4, "by which they lean meanwhile", "derived: that over 3 m", unit="rad")
+    orientation_rad: float = constant(
+        1e-3,
+        "by which what shows the tool's orientation errs, about each axis, as it is seen from other sides",
+        "judgement: spheres 0.1 m apart, one of them seen 0.1 mm elsewhere; one real arm with a marker was in view",
+        unit="rad",
+    )
 
 
 PLAUSIBLE = PlausibleSizes()
@@ -207,6 +213,9 @@ class FormRules(Constants):
         6, "half waves of a set-up's slow wander at most", "judgement: what is faster is hardly a set-up's"
     )
     growth_waves: int = constant(3, "the same of a link's length", "judgement: castings follow a hall in hours")
+    numbers_per_orientation_value: int = constant(
+        2, "of recorded orientations, for each value of how they err", "judgement: half of what they say is left"
+    )
     rows_per_wander_wave: int = constant(12, "for each of them", "judgement: six directions take half of them up")
     smooth_waves: float = constant(
         6.0,

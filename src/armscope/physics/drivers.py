@@ -60,6 +60,30 @@ def _chain_angle(scene: LoadedArm, j: int) -> Array:
     return scene.chain_angles[:, j - 1]
 
 
+def _attitude(scene: LoadedArm, row: int, column: int) -> Array:
+    """An entry of the tool's rotation R in base axes, counted from 1: the side that it turns to the instrument."""
+    entry: Array = scene.nominal.tool_rotation[:, row - 1, column - 1]
+    return entry
+
+
+def _attitude_twice(scene: LoadedArm, row: int, column: int) -> Array:
+    """The same of degree two: tr(S_row R S_column R^T), S the five symmetric matrices of unit norm without a trace."""
+    rotation = scene.nominal.tool_rotation
+    seen = np.einsum("nij,jl,nkl->nik", rotation, _quadrupole(column), rotation, optimize=True)
+    return np.asarray(np.einsum("ik,nik->n", _quadrupole(row), seen))
+
+
+def _quadrupole(number: int) -> Array:
+    """One of an orthonormal basis of symmetric 3 x 3 matrices without a trace, counted from 1."""
+    if number <= 3:
+        matrix = np.zeros((3, 3))
+        first, second = ((0, 1), (1, 2), (0, 2))[number - 1]
+        matrix[first, second] = matrix[second, first] = np.sqrt(1 / 2)
+        return matrix
+    diagonal = np.array([1, -1, 0]) / np.sqrt(2) if number == 4 else np.array([1, 1, -2]) / np.sqrt(6)
+    return np.asarray(np.diag(diagonal))
+
+
 def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:
     """Side of approach where the joint stands near ``centre`` (a cubic spline of its angle)."""
     return side_of_approach(scene, j) * cubic_spline(_angle(scene, j), centre, width)
@@ -94,6 +118,8 @@ KINDS: dict[str, DriverKind] = {
     "chain sine": DriverKind(_chain_sine),
     "chain cosine": DriverKind(_chain_cosine),
     "chain angle": DriverKind(_chain_angle),
+    "attitude": DriverKind(_attitude),
+    "attitude twice": DriverKind(_attitude_twice),
     "lost motion": DriverKind(_lost_motion, needs="approach"),
     "spline": DriverKind(_spline),
     **LOADS,

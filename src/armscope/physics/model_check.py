@@ -16,10 +16,12 @@ from armscope.physics.frames import BASE_FRAME, TOOL_FRAME
 from armscope.physics.geometric import BACKGROUND, PARALLELOGRAM_GEOMETRY, is_parallelogram
 from armscope.physics.loads import STATED_MASSES
 from armscope.physics.model_contents import PartFile
+from armscope.physics.orientation_error import ORIENTATION_ERROR
 from armscope.physics.registry import effects
 from armscope.physics.wander import BASE_WANDER, LINK_WANDER
 from armscope.robot import Arm
 
+ALLOWED_FOR = (STATED_MASSES, BASE_WANDER, LINK_WANDER, ORIENTATION_ERROR)
 DEEPEST_DRIVER = 4
 """Levels of drivers of drivers."""
 LARGEST_ARGUMENT = 1e12
@@ -39,8 +41,7 @@ class Reader:
     def __init__(self, arm: Arm, source: object) -> None:
         self.arm, self.source = arm, source
         self._definitions: dict[str, Effect] = {
-            effect.name: effect
-            for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, STATED_MASSES, BASE_WANDER, LINK_WANDER, *effects())
+            effect.name: effect for effect in (BASE_FRAME, TOOL_FRAME, BACKGROUND, *ALLOWED_FOR, *effects())
         }
 
     def parts(self, contents: Sequence[PartFile], place: str) -> tuple[Part, ...]:
@@ -104,7 +105,7 @@ class Reader:
         return Product(direction, self._driver(driver, place), self._finite(factor, place))
 
     def _location(self, location: Any, axis: Any, place: str) -> str:
-        axes = {"instrument": ("scale",), "motor": ("turn",), "payload": ("mass",)}
+        axes = {"instrument": ("scale", *AXES[3:]), "motor": ("turn",), "payload": ("mass",)}
         kind = self._frame(location, ("base", "tool", "instrument", "payload", "joint", "link", "motor"), place)
         if axis not in axes.get(kind, AXES):
             raise InputError(self.source, place, axis, f"at {location} the axis is one of {axes.get(kind, AXES)}")
@@ -167,9 +168,10 @@ class Reader:
         if name == "location":
             self._frame(value, ("base", "joint"), place)
             return value
-        if name in ("j", "link", "axis"):
+        if name in ("j", "link", "axis", "row", "column"):
             motors = self.arm.n_joints if kind.startswith("chain") else self.arm.n_motors
             most = {"j": motors, "link": self.arm.n_joints, "axis": 5 if kind == "bend" else 2}
+            most |= dict.fromkeys(("row", "column"), 5 if kind == "attitude twice" else 3)
             least = 0 if name == "axis" else 1
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most[name]:
                 raise InputError(self.source, place, value, f"{name} is a whole number from {least} to {most[name]}")

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.physics import drivers
 from armscope.physics.effect import Part
@@ -23,6 +24,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
 
+INSTRUMENT = "instrument"
+SCALE = Direction(INSTRUMENT, "scale")
 FRAMES = ("base", "joint", "link", "tool")
 """Kinds of places that a twist moves; other directions are seen by instruments that do not look at the tool."""
 
@@ -95,9 +98,17 @@ class Scene(LoadedArm):
                 for part in parts
                 for value, term in zip(part.values, part.placed.terms, strict=True)
                 for product in term.products
-                if product.direction.location == "instrument"
+                if product.direction == SCALE
             )
         )
+
+    def misread(self, parts: Sequence[Part]) -> Array | None:
+        """(N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is."""
+        amounts = self.amounts([part for part in parts if part.placed.location == INSTRUMENT])
+        about = [amounts.get(Direction(INSTRUMENT, axis)) for axis in AXES[3:]]
+        if all(amount is None for amount in about):
+            return None
+        return np.stack([np.zeros(len(self)) if amount is None else amount for amount in about], axis=-1)
 
     def posture(self, parts: Sequence[Part] = ()) -> Posture:
         """The arm with some effects (and tool offsets, as parts) in place."""
@@ -107,11 +118,11 @@ class Scene(LoadedArm):
         frames = chain(self.arm, self.recordings.motor_angles, self.twists(giving or parts))
         if not giving or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
             frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if giving else frames
-            return Posture(self, frames, self.stretch(parts))
+            return Posture(self, frames, self.stretch(parts), self.misread(parts))
         # what only gives way moves the arm by little: turned frames and tools, which imitate each other, stay out of it
         bent = self._bent(frames)
         frames = chain(self.arm, self.recordings.motor_angles, bent.twists(parts))
-        return Posture(bent, frames, self.stretch(parts))
+        return Posture(bent, frames, self.stretch(parts), self.misread(parts))
 
 
 FARTHEST_M = 0.2
@@ -133,14 +144,22 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
+        misread: (N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is.
         moved, turned: what was computed of `displacement` and `turn`.
     """
 
     scene: Scene
     frames: Chain
     stretch: float = 0.0
+    misread: Array | None = None
     moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
     turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
+
+    @property
+    def seen_rotation(self) -> Array:
+        """(N, 3, 3) orientations of the last frame as the instrument sees them, in base axes."""
+        rotation = self.frames.tool_rotation
+        return rotation if self.misread is None else rotation @ turned_by(self.misread)
 
     @property
     def tool(self) -> Array:
@@ -170,8 +189,8 @@ class Posture:
 
     def _displacements(self, location: str) -> dict[Direction, Array]:
         kind = Location.of(location).kind
-        if kind == "instrument":
-            return {Direction(location, "scale"): self.frames.tool}
+        if kind == INSTRUMENT:
+            return {SCALE: self.frames.tool}
         if kind == "motor":
             return _by_motor(joint_jacobian(self.frames) @ self.scene.arm.actuation)
         return _by_axis(location, twist_jacobian(self.frames, location)) if kind in FRAMES else {}
@@ -180,7 +199,8 @@ class Posture:
         kind = Location.of(location).kind
         if kind == "motor":
             return _by_motor(joint_axes(self.frames) @ self.scene.arm.actuation)
-        return _by_axis(location, turn_jacobian(self.frames, location)) if kind in FRAMES else {}
+        seen = "tool" if kind == INSTRUMENT else location
+        return _by_axis(location, turn_jacobian(self.frames, seen)) if kind in (*FRAMES, INSTRUMENT) else {}
 
 
 def _by_motor(jacobian: Array) -> dict[Direction, Array]:

@@ -95,6 +95,7 @@ class OrientationFile(FilePart):
     noise_mrad: Number
     lever_mm: Number
     before_mrad: Number
+    instrument_mrad: Number = 0.0
     held_out_rms_mrad: BeforeAfter
 
 

@@ -112,12 +112,14 @@ class Orientations:
         noise_mrad: what the fitted model leaves of them.
         lever_mm: by which a turn counts beside a shift of the point: the ratio of their noises.
         before_mrad: after the free frames alone.
+        instrument_mrad: what they err by, smoothly with the tool's attitude: as they were read, not as the arm stood.
     """
 
     rows: int
     noise_mrad: float
     lever_mm: float
     before_mrad: float
+    instrument_mrad: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -72,8 +72,16 @@ def _orientations(state: DiagnosisState) -> Orientations | None:
                 noise_mrad=1e3 * float(np.sqrt(np.mean(left[weights.counts] ** 2))),
                 lever_mm=1e3 * weights.scale,
                 before_mrad=1e3 * float(np.sqrt(np.mean(before[weights.counts] ** 2))),
+                instrument_mrad=1e3
+                * _misread_rms(state.fit.model, state.recordings.rows(np.flatnonzero(weights.counts))),
             )
     return None
+
+
+def _misread_rms(model: FittedModel, rows: Recordings) -> float:
+    """By how much orientations were read wrongly with the tool's attitude, rad RMS per axis."""
+    misread = model.scene(rows).misread(model.everything)
+    return 0.0 if misread is None else float(np.sqrt(np.mean(misread**2)))
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:

@@ -75,6 +75,11 @@ def assumptions(verdict: Verdict, arm: Arm, recordings: Recordings) -> list[str]
             f"({rounded(seen.noise_mrad)} mrad per axis). How the tool is turned on the flange is free. Sizes in mm, "
             "the atlas and the waterfall are about the tool point alone."
         )
+        if seen.instrument_mrad > 0:
+            sentences.append(
+                f"The orientations err by {rounded(seen.instrument_mrad)} mrad (RMS per axis), smoothly with the side "
+                "that the tool turns to the instrument. No point moves with it, so it was taken for the instrument's."
+            )
     if missing:
         sentences.append(f"Not recorded, so nothing that follows it can be seen: {', '.join(missing)}.")
     if still:
