@@ -11,6 +11,9 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # looking for them takes as long as reading YAML
     try:
         from armscope.cli import main as run
+        from armscope.core.deferral import defer
+
+        defer("numpy", "f2py", "testing")  # SciPy imports them with all else of NumPy: a tenth of what a check takes
     except KeyboardInterrupt:
         print("armscope: interrupted; nothing was left half-written", file=sys.stderr)
         sys.exit(130)
