@@ -213,6 +213,12 @@ class FormRules(Constants):
         6, "half waves of a set-up's slow wander at most", "judgement: what is faster is hardly a set-up's"
     )
     growth_waves: int = constant(3, "the same of a link's length", "judgement: castings follow a hall in hours")
+    sessions_per_slip: int = constant(
+        100,
+        "without a joint whose zero jumps while the arm is measured, for one with: the prior pays for it",
+        "judgement: arms are homed and crash between sessions; what every arm has may look like it on ordered poses",
+        unit="sessions",
+    )
     numbers_per_orientation_value: int = constant(
         2, "of recorded orientations, for each value of how they err", "judgement: half of what they say is left"
     )

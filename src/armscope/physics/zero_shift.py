@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from armscope.physics.clause import Told
-from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import from_then_on, moment, when
 from armscope.physics.effect import Driver, Effect, Placed, motor, term
@@ -39,7 +39,7 @@ def zero_shift(recordings: Recordings, row: int, multiplicity: int, j: int) -> P
     """
     runs = in_order_of_time(recordings)
     start = moment(recordings, row, tuple(runs[runs.index(str(recordings.run[row])) + 1 :]))
-    return from_then_on(_jump(j, start.driver, "", multiplicity=multiplicity), start)
+    return from_then_on(_jump(j, start.driver, "", multiplicity=multiplicity * FORM.sessions_per_slip), start)
 
 
 def _jump(j: int, driver: Driver, told: str, variant: str = "", multiplicity: int = 1) -> Placed:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.physics.constants import FORM
+from armscope.physics.zero_shift import ZERO_SHIFT, zero_shift
 from armscope.verdict.diagnosis import Diagnosis
 
 from ..numpy_arms import IIWA, NOISE_M, ROWS, UR5E, said, still
+from ..planted import planted
 
 JUMPS_AT = 90
 
@@ -68,3 +72,12 @@ def test_a_zero_that_creeps_is_no_jump() -> None:
 
 def test_an_arm_that_stands_still_in_the_session_has_no_jump() -> None:
     assert not drifts(said(UR5E, still, seed=14, time=15.0 * np.arange(ROWS)))
+
+
+def test_a_jump_while_the_arm_is_measured_is_rarer_than_one_between_sessions() -> None:
+    """Ordered poses make what every arm has look like a jump: the prior settles what the rows leave open."""
+    arm, table = planted("six-axis", {}, 40, 0.03, seed=2)
+    within = zero_shift(table, 20, 7, 3)
+    assert within.multiplicity == 7 * FORM.sessions_per_slip
+    days = replace(table, run=np.repeat(["1", "2"], 20))
+    assert {placed.multiplicity for placed in ZERO_SHIFT.place(arm, days)} == {1}
