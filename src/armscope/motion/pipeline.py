@@ -13,6 +13,7 @@ from armscope.core.types import Progress, unheard
 from armscope.motion.check import check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_so_far, select_causes
@@ -165,7 +166,7 @@ def diagnose_motion(
     verdict = with_links(verdict, [twist.side for twist in twists])
     verdict = replace(
         verdict,
-        preparation=how.words,
+        preparation=how.words + pauses_in_words(selected.rows.pauses),
         notices=(*notices, *verdict.notices),
         samples=len(motions),
         runs=runs,

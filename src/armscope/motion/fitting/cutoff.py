@@ -56,10 +56,11 @@ def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparatio
 
 def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
     rate = stretches[0].rate
-    longest = max(stretches, key=lambda stretch: (np.sum(np.ptp(stretch.q, axis=0) > LIBRARY.still_rad), len(stretch)))
-    moving = _position_cutoff(longest)
+    low, high = (np.array([bound(each.q, axis=0) for each in stretches]) for bound in (np.min, np.max))
+    spans = np.maximum(np.max(high, axis=0) - np.min(low, axis=0), LIBRARY.still_rad)
+    moving = _position_cutoff(stretches)
     generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
-    first = first_look(arm, longest, generous)
+    first = first_look(arm, max(stretches, key=lambda stretch: _travelled(stretch, spans)), generous)
     if asked is not None:
         return preparation(rate, asked, "as asked", moving), first
     if len(first.left) < CUTOFF.window:
@@ -71,15 +72,31 @@ def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -
     return preparation(rate, float(f"{cutoff:.2g}"), source, moving), first
 
 
-def _position_cutoff(stretch: Stretch) -> float:
-    """Hz above which positions hold noise only: where their spectrum comes down to that of the highest frequencies."""
+def _travelled(stretch: Stretch, spans: Array) -> tuple[int, float]:
+    """How many joints move, and how far all go, in shares of their spans (m,): a long stretch may be mostly pauses."""
+    moving = np.sum(np.ptp(stretch.q, axis=0) > LIBRARY.still_rad)
+    return int(moving), float(np.sum(np.abs(np.diff(stretch.q, axis=0)) / spans))
+
+
+def _position_cutoff(stretches: Sequence[Stretch]) -> float:
+    """Hz above which positions hold noise only: where their spectra come down to that of the highest frequencies.
+
+    A run that was sampled more slowly has next to no noise there: it counts by that of the others.
+    """
+    highest, spectra = 0.0, [_spectrum(stretch) for stretch in stretches]
+    floor = np.max([np.median(power[-len(power) // 4 :], axis=0) for _, power in spectra], axis=0)
+    for frequency, power in spectra:
+        moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
+        highest = max(highest, float(frequency[moving[-1]]) if len(moving) else 0.0)
+    return CUTOFF.beyond_motion * highest if highest else np.inf
+
+
+def _spectrum(stretch: Stretch) -> tuple[Array, Array]:
+    """(F,) Hz and (F, m) of positions."""
     size = min(len(stretch) - 2, CUTOFF.window)
     bends = np.diff(stretch.q, n=2, axis=0)  # differences, so that a slow motion does not leak into all frequencies
     frequency, power = welch(bends, stretch.rate, nperseg=size, axis=0)
-    power = power[1:] / (2 * np.sin(np.pi * frequency[1:, None] / stretch.rate)) ** 4
-    floor = np.median(power[-len(power) // 4 :], axis=0)
-    moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
-    return CUTOFF.beyond_motion * float(frequency[1 + moving[-1]]) if len(moving) else np.inf
+    return frequency[1:], power[1:] / (2 * np.sin(np.pi * frequency[1:, None] / stretch.rate)) ** 4
 
 
 def _crossing(first: FirstLook, rate: float) -> float:

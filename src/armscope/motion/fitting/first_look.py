@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
-from armscope.motion.fitting.rows import build_rows
+from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import model_so_far
 from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.fitting.weights import fitted_together
@@ -51,20 +52,42 @@ def first_look(arm: MovingArm, stretch: Stretch, how: Preparation) -> FirstLook:
     modelled = rows.nominal + rows.modelled(coefficients)
     waves: Waves = {}
     for j in np.flatnonzero(~arm.sliding):
-        left = np.where(rows.still[:, j], 0.0, rows.torque[:, j] - modelled[:, j])
-        waves[int(j)], rippled = _waves(stretch, how, int(j), left)
+        left = rows.torque[:, j] - modelled[:, j]
+        waves[int(j)], rippled = _waves(stretch, how, int(j), left, rows.moving[:, j])
         modelled[:, j] += rippled
     model = replace(model_so_far(layout, coefficients), of_bodies=False)
-    return FirstLook(model, waves, modelled, rows.torque - modelled)
+    return FirstLook(model, waves, *(_in_motion(rows, torque) for torque in (modelled, rows.torque - modelled)))
 
 
-def _waves(stretch: Stretch, how: Preparation, j: int, left: Array) -> tuple[tuple[tuple[int, ...], int], Array]:
-    """The counts whose waves explain most, each more than the counts beside it; how many were tried; their torque."""
+def _in_motion(rows: MotionRows, torque: Array) -> Array:
+    """Torque (K, m) where joints move, and straight lines where they stand: what holds them there is not told."""
+    found, every = torque.copy(), np.arange(len(rows))
+    for j in range(torque.shape[1]):
+        moving = np.flatnonzero(rows.moving[:, j])
+        found[:, j] = np.interp(every, moving, torque[moving, j]) if len(moving) else 0.0
+    return found
+
+
+def _waves(
+    stretch: Stretch, how: Preparation, j: int, left: Array, moving: NDArray[np.bool_]
+) -> tuple[tuple[tuple[int, ...], int], Array]:
+    """The counts whose waves explain most, each more than the counts beside it; how many were tried; their torque.
+
+    Args:
+        stretch: even samples.
+        how: filters and decimation.
+        j: joint, from 0.
+        left: (K,) torque of the joint that is left to explain, N m.
+        moving: (K,) which of these rows tell anything.
+
+    Returns:
+        Counts, how many, (K,) N m.
+    """
     speed = np.percentile(np.abs(np.diff(stretch.q[:, j])), 90) * stretch.rate / (2 * np.pi)
     most = min(LIBRARY.most_waves, int(how.cutoff / max(speed, 1e-9)))
     least = max(2, int(np.ceil(LIBRARY.least_waves * 2 * np.pi / max(float(np.ptp(stretch.q[:, j])), 1e-9))))
     counts = np.arange(least, most + 1)
-    if not len(counts):
+    if not len(counts) or not moving.any():
         return ((), 1), np.zeros(len(left))
     made = []
     for signals in parts([stretch], how):
@@ -73,11 +96,11 @@ def _waves(stretch: Stretch, how: Preparation, j: int, left: Array) -> tuple[tup
     waves = np.concatenate(made)
     explained = np.zeros(len(counts))
     for number in range(len(counts)):
-        wave = waves[:, number]
-        explained[number] = (wave.T @ left) @ np.linalg.lstsq(wave, left, rcond=None)[0]
+        wave = waves[moving, number]
+        explained[number] = (wave.T @ left[moving]) @ np.linalg.lstsq(wave, left[moving], rcond=None)[0]
     beside = np.r_[-np.inf, explained, -np.inf]
     peaks = np.flatnonzero((explained >= beside[:-2]) & (explained >= beside[2:]))
     best = np.sort(peaks[np.argsort(-explained[peaks])][: LIBRARY.waves_kept])
     kept = waves[:, best].reshape(len(waves), -1)
     found = tuple(int(n) for n in counts[best])
-    return (found, len(counts)), kept @ np.linalg.lstsq(kept, left, rcond=None)[0]
+    return (found, len(counts)), kept @ np.linalg.lstsq(kept[moving], left[moving], rcond=None)[0]

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
+from armscope.motion.fitting.pauses import Pauses, joined, pauses_of, stands
 from armscope.motion.fitting.so_far import SoFar
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.library.laws import FOLLOWS_MODEL, Law
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
-from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
 from armscope.robot.bodies import Bodies
@@ -51,6 +51,7 @@ class MotionRows:
             is true torque is recorded. A gain's own column is the stated torque, so that
             (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
         samples: that they were formed of.
+        pauses: of each joint, in which it is held by nobody knows what.
     """
 
     layout: TorqueLayout
@@ -66,6 +67,7 @@ class MotionRows:
     at: tuple[Indices, ...]
     gain: Array
     samples: tuple[StatedSamples, ...]
+    pauses: tuple[Pauses, ...]
 
     def __len__(self) -> int:
         return len(self.time)
@@ -87,6 +89,15 @@ class MotionRows:
                 rows = np.arange(len(self))[which][there]
                 found[there] -= np.column_stack([self._at(j, lacking, rows) for j in range(len(self.columns))])
         return found
+
+    @property
+    def moving(self) -> NDArray[np.bool_]:
+        """(K, m) where a joint moves and no force of a pause is most of what a row holds."""
+        return ~(self.still | np.column_stack([own.holding(len(self)) for own in self.pauses]))
+
+    def without_pauses(self, left: Array) -> Array:
+        """What a model leaves (K, m), without what goes with the forces that hold joints in pauses."""
+        return np.column_stack([own.without(each) for own, each in zip(self.pauses, left.T, strict=True)])
 
     def _at(self, joint: int, whole: Array, which: Indices | slice) -> Array:
         """(K,) of one joint; ``whole``: coefficients (p,) with combinations of masses counted in."""
@@ -167,7 +178,8 @@ def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
     for j in range(len(at)):
         columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
     samples = tuple(each for piece in pieces for each in piece.samples)
-    return MotionRows(layout, columns=tuple(columns), at=at, gain=pieces[0].gain, samples=samples, **whole)
+    pauses, gain = joined([(len(piece), piece.pauses) for piece in pieces]), pieces[0].gain
+    return MotionRows(layout, columns=tuple(columns), at=at, gain=gain, samples=samples, pauses=pauses, **whole)
 
 
 def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
@@ -248,8 +260,11 @@ class _Piece:
             order = np.argsort(np.concatenate(index))
             columns.append(np.hstack(made)[:, order].astype(np.float32))
             at.append(np.concatenate(index)[order])
+        still = stands(layout.arm, signals, self.moment.rate)[kept]
+        fresh = regressor is not None  # else they are the rows' that are renewed
         return MotionRows(
             layout=layout,
+            pauses=pauses_of(layout.arm, signals, self.how, still) if fresh else (),
             time=signals.time[kept],
             run=np.full(len(kept), signals.run),
             stretch=np.full(len(kept), signals.stretch),
@@ -257,7 +272,7 @@ class _Piece:
             dq=signals.dq[kept],
             torque=signals.effort,
             nominal=np.zeros((len(kept), m)) if regressor is None else self._nominal(regressor),
-            still=_still(layout.arm, signals, self.moment.rate)[kept],
+            still=still,
             columns=tuple(columns),
             at=tuple(at),
             gain=self.gain,
@@ -282,17 +297,3 @@ class _Piece:
                     own[joint][0].append(values[:, n])
                     own[joint][1].append(index)
         return own
-
-
-def _still(arm: MovingArm, signals: Signals, rate: float) -> NDArray[np.bool_]:
-    """Where a joint is slow for longer than it takes to turn back."""
-    width = FILTER.still * np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)
-    slow = np.abs(signals.dq) < width
-    length = max(int(FILTER.still_s * rate), 1)
-    total = np.cumsum(np.vstack([np.zeros(arm.n_motors), slow]), axis=0)
-    stood = np.zeros_like(slow)
-    if len(slow) > length:
-        whole = (total[length:] - total[:-length]) == length  # windows that are slow all through
-        for shift in (0, length // 2, length - 1):
-            stood[shift : shift + len(whole)] |= whole
-    return np.asarray(stood & slow)

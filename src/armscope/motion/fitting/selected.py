@@ -49,7 +49,7 @@ class SelectedCauses:
     @functools.cached_property
     def residuals(self) -> Array:
         """(K, m) N m that the model leaves."""
-        return np.asarray(self.rows.torque - self.modelled)
+        return self.rows.without_pauses(self.rows.torque - self.modelled)
 
     @property
     def noise(self) -> TorqueWeights:

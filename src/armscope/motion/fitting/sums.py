@@ -86,14 +86,15 @@ class _Joint:
     """One joint's columns and response, with what of them changed."""
 
     def __init__(self, rows: MotionRows, row: Array, joint: int, earlier: Earlier | None) -> None:
-        self.columns, self.weight = rows.columns[joint], row[:, joint]
-        self.response = rows.torque[:, joint] - rows.nominal[:, joint]
+        without = rows.pauses[joint].without
+        self.columns, self.weight = without(rows.columns[joint]), row[:, joint]
+        self.response = without(rows.torque[:, joint] - rows.nominal[:, joint])
         self.change, self.fresh = self.weight, np.arange(self.columns.shape[1])
         if earlier is not None:
             self.change = self.weight - earlier.row[:, joint]
             old = earlier.rows.columns[joint]
-            same = old is self.columns
-            self.fresh = np.flatnonzero([] if same else (old != self.columns).any(axis=0))
+            same = old is rows.columns[joint]
+            self.fresh = np.flatnonzero([] if same else (old != rows.columns[joint]).any(axis=0))
 
     def over(self, among: NDArray[np.bool_], before: NormalEquations | None) -> NormalEquations:
         """Sums over some rows, from those that there were."""

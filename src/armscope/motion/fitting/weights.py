@@ -102,7 +102,7 @@ def left_elsewhere(
         fitted = evaluate(rest, best.chosen, best.background, best.noise)
         which = np.flatnonzero(block == number)
         left[which] -= rows.modelled(fitted.coefficients(len(problem.scale)) / problem.scale, which)
-    return np.asarray(left)
+    return rows.without_pauses(left)
 
 
 def _least(rows: MotionRows) -> Array:
@@ -203,7 +203,7 @@ def left_apart(rows: MotionRows, choices: Sequence[Indices]) -> Array:
         for choice, among in enumerate(choices):
             modelled = rows.nominal[which] + rows.modelled(_solved(rest, among), which)
             left[choice, which] = rows.torque[which] - modelled
-    return left
+    return np.stack([rows.without_pauses(each) for each in left])
 
 
 def _plain(rows: MotionRows) -> TorqueWeights:

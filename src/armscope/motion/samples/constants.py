@@ -127,6 +127,37 @@ class FilterRules(Constants):
     still_s: float = constant(
         0.25, "how long, to stand and not to turn back", "judgement: a reversal is shorter", unit="s"
     )
+    pause_s: float = constant(
+        0.05, "that a joint stays where it is, for a pause", "judgement: turning back is shorter", unit="s"
+    )
+    pause_travel: float = constant(
+        0.05,
+        "of the width within which friction changes sides: a joint that is slower stays where it is",
+        "judgement: friction needs more way to come to its other side",
+        unit="widths",
+    )
+    pause_shown: float = constant(
+        0.03, "of the strongest force in a pause, below which one is hidden by the low-pass", "judgement: noise is more"
+    )
+    pause_blurred: float = constant(
+        0.5,
+        "periods of the positions' cut-off by which a pause seems longer or shorter at either end",
+        "derived: of the low-pass's impulse response, nearly all is within",
+        unit="periods",
+    )
+    pause_piece: float = constant(
+        0.5,
+        "in which the force of a pause is constant",
+        "derived: a low-pass shows nothing finer",
+        unit="periods of the higher cut-off",
+    )
+    pause_reach: float = constant(
+        2.0,
+        "of the torques' cut-off, by which rows about a pause hold of it",
+        "derived: the impulse response beyond is below a hundredth",
+        unit="periods",
+    )
+    pauses_at_once: int = constant(20, "whose rows overlap, taken together", "judgement: time", unit="pauses")
     chunk: int = constant(30_000, "worked on at a time", "judgement: memory", unit="samples")
 
 

@@ -60,7 +60,7 @@ def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
     problem = selected.problem.with_equations(total([selected.blocks[number] for number in rest]))
     fitted = Search.on(problem).evaluated(selected.best.chosen, selected.best)
     rows = selected.rows
-    left = rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted))
+    left = rows.without_pauses(rows.torque - rows.nominal - rows.modelled(coefficients_of(problem, fitted)))
     among = selected.weights.row * np.isin(selected.block, rest)[:, None]
     parts = [part for number in rest for part in selected.by_joint[number]]
     return problem.with_equations(weighed(rows, parts, noise_of(rows, left, among)))

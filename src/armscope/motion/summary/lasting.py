@@ -52,7 +52,9 @@ def lasting_torques(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
     rows, found = selected.rows, []
     residuals = selected.residuals
     ordinary = Search.on(selected.problem).perfect()
-    before = rows.torque - rows.nominal - rows.modelled(coefficients_of(selected.problem, ordinary))
+    before = rows.without_pauses(
+        rows.torque - rows.nominal - rows.modelled(coefficients_of(selected.problem, ordinary))
+    )
     for j in range(residuals.shape[1]):
         which = np.flatnonzero(selected.weights.row[:, j] > 0)
         if len(which) < LASTING.least_rows:
@@ -128,7 +130,7 @@ def _in_words(one: Driver, other: Driver) -> str:
 
 def _drivers(selected: SelectedCauses, joint: int, which: Indices) -> dict[Driver, Array]:
     """What maps are over: of the joint itself, and of the others that move."""
-    rows, torque = selected.rows, selected.rows.torque[which] - selected.residuals[which]
+    rows, torque = selected.rows, selected.modelled[which]
     own = rows.columns[joint][which, np.searchsorted(rows.at[joint], OWN * joint + NAMED_OF_OWN.index("inertia"))]
     found: dict[Driver, Array] = {}
     for k in range(torque.shape[1]):
