@@ -7,6 +7,8 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from armscope.physics.effect import AXES
+from armscope.physics.geometric import row_terms
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
@@ -15,7 +17,7 @@ from armscope.verdict.effects import FoundEffect, Parameter
 from tests.report.verdicts import found
 from tests.robot.test_urdf import TORSO_ARM, build
 
-ERRORS = {"tx": 0.7e-3, "ty": -0.2e-3, "tz": 0.4e-3, "rx": 6e-4, "ry": -9e-4}
+ERRORS = {"tx": 0.7e-3, "ty": -0.2e-3, "tz": 0.4e-3, "rx": 6e-4, "ry": -9e-4, "rz": 7e-4}
 
 
 def saying(arm: Arm, *effects: FoundEffect) -> Any:
@@ -23,7 +25,7 @@ def saying(arm: Arm, *effects: FoundEffect) -> Any:
     return SimpleNamespace(model=SimpleNamespace(arm=arm), effects=effects)
 
 
-def another_shape(joint: int, errors: dict[str, float] = ERRORS) -> FoundEffect:
+def another_shape(joint: int, errors: dict[str, float]) -> FoundEffect:
     """A link whose place in a URDF is off; errors in m and rad."""
     told = (
         Parameter(name, "mm" if name[0] == "t" else "rad", value * (1e3 if name[0] == "t" else 1), 1e-6)
@@ -32,12 +34,18 @@ def another_shape(joint: int, errors: dict[str, float] = ERRORS) -> FoundEffect:
     return found("link_geometry", f"link {joint}", *told)
 
 
-@pytest.mark.parametrize("joint", [1, 2, 3])
+@pytest.mark.parametrize("joint", [1, 2, 3, 4, 5, 6])
 def test_a_urdf_with_the_corrected_origin_stands_where_the_link_of_another_shape_does(joint: int, tmp_path) -> None:
     arm = build()
     angles = np.random.default_rng(joint).uniform(-1.5, 1.5, (20, arm.n_motors))
-    off = forward_kinematics(arm, angles, {f"joint {joint}": np.array([*ERRORS.values(), 0.0])})
-    table = corrected_origins(saying(arm, another_shape(joint)))
+    terms = row_terms(arm, joint)
+    errors = {name: ERRORS[name] for name in terms}  # all but the turn about the joint's own axis
+    twist = np.zeros(6)
+    for name, each in terms.items():
+        for product in each.products:
+            twist[AXES.index(product.direction.axis)] += product.factor * errors[name]
+    off = forward_kinematics(arm, angles, {f"joint {joint}": twist})
+    table = corrected_origins(saying(arm, another_shape(joint, errors)))
     assert table is not None
     assert table["changed"].tolist() == [j == joint for j in range(1, arm.n_joints + 1)]
     tree = ElementTree.parse(TORSO_ARM)
@@ -51,6 +59,33 @@ def test_a_urdf_with_the_corrected_origin_stands_where_the_link_of_another_shape
     mended = forward_kinematics(build(tmp_path / "corrected.urdf"), angles)
     np.testing.assert_allclose(mended, off, atol=1e-9)
     assert np.abs(off - forward_kinematics(arm, angles)).max() > 1e-4
+
+
+@pytest.mark.parametrize("axis", ["1 0 0", "0 1 0", "0 0 1", "0 0 -1", "0 -1 0"])
+@pytest.mark.parametrize("shift", ["x", "y", "z"])
+def test_a_shift_is_told_along_the_axes_of_the_file(axis: str, shift: str, tmp_path) -> None:
+    """A joint that turns about x has no z along its own axis in its file, and nobody knows of ours."""
+    file = ElementTree.parse(TORSO_ARM)
+    joint = next(each for each in file.getroot().findall("joint") if each.get("name") == build().joint_names[1])
+    turning, origin = joint.find("axis"), joint.find("origin")
+    assert turning is not None
+    assert origin is not None
+    turning.set("xyz", axis)
+    origin.set("rpy", "0 0 0")
+    arms = []
+    for name, by in (("as-drawn", 0.0), ("as-built", 1e-3)):
+        place = [float(number) for number in origin.get("xyz", "0 0 0").split()]
+        place["xyz".index(shift)] += by
+        origin.set("xyz", " ".join(map(str, place)))
+        file.write(tmp_path / f"{name}.urdf")
+        arms.append(build(tmp_path / f"{name}.urdf"))
+    drawn, built = arms
+    angles = np.random.default_rng(1).uniform(-1.5, 1.5, (5, drawn.n_motors))
+    twist = np.zeros(6)
+    for product in row_terms(drawn, 2)[f"t{shift}"].products:
+        twist[AXES.index(product.direction.axis)] += 1e-3 * product.factor
+    told = forward_kinematics(drawn, angles, {"joint 2": twist})
+    np.testing.assert_allclose(told, forward_kinematics(built, angles), atol=1e-12)
 
 
 def test_an_origin_that_hardly_turns_keeps_its_stated_angles() -> None:

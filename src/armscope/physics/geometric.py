@@ -21,21 +21,27 @@ from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.parallelogram import forearm_deviation
+from armscope.robot.urdf_writing import axes_told
 
 MILLIMETRE = 1e-3
+ROUNDING = 1e-9
+"""Of a twist's components: axes of a file that stands square hold no others."""
 
 
 def row_terms(arm: Arm, j: int) -> dict[str, Term]:
-    """Constant errors of D-H row j (1-based) by name: a, alpha, d, theta, and beta where axes are parallel.
+    """Constant errors of D-H row j (1-based) but for the joint's zero: a, alpha, d, and beta where axes are parallel.
 
-    What each does is `armscope.robot.denavit_hartenberg.row_twist`. For a URDF there are no rows: all six directions of
-    the joint's frame, named by axis.
+    What each does is `armscope.robot.denavit_hartenberg.row_twist`. For a URDF there are no rows: all directions of the
+    joint's frame, named by axis (`armscope.robot.urdf_writing.axes_told`), but for the turn about its own.
     """
     if arm.description.dh is None:
-        twists = {axis: (f"joint {j}", unit) for axis, unit in zip(AXES, np.eye(6), strict=True)}
+        turn = axes_told(arm)[j - 1, :3, :3].T
+        own = AXES[3 + int(np.argmax(np.abs(turn[:, 2])))]
+        units = zip(AXES, np.kron(np.eye(2), turn), strict=True)
+        twists = {axis: (f"joint {j}", unit) for axis, unit in units if axis != own}
     else:
         parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < FORM.parallel_rad
-        kinds = ("a", "alpha", "d", "theta", *(["beta"] if parallel else []))
+        kinds = ("a", "alpha", "d", *(["beta"] if parallel else []))
         twists = {kind: row_twist(arm, j, kind) for kind in kinds}
     return {name: _constant(name, *twist) for name, twist in twists.items()}
 
@@ -43,8 +49,9 @@ def row_terms(arm: Arm, j: int) -> dict[str, Term]:
 def _constant(name: str, location: str, twist: Array) -> Term:
     """A length (a, d, tx, ty, tz) in mm, or an angle, that moves a frame by a twist per SI unit."""
     length = name in ("a", "d", "tx", "ty", "tz")
+    twist = np.where(np.abs(twist) < ROUNDING, 0.0, twist)
     products = (Product(Direction(location, AXES[n]), ONE, float(twist[n])) for n in np.flatnonzero(twist))
-    size = PLAUSIBLE.length_m if length else PLAUSIBLE.zero_rad if name in ("theta", "rz") else PLAUSIBLE.twist_rad
+    size = PLAUSIBLE.length_m if length else PLAUSIBLE.twist_rad
     return term(name, "mm" if length else "rad", *products, si=MILLIMETRE if length else 1.0, plausible=size)
 
 
@@ -76,7 +83,7 @@ JOINT_OFFSET = Effect(
 
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in range(1, arm.n_joints + 1):
-        terms = tuple(t for name, t in row_terms(arm, j).items() if name not in ("theta", "beta", "rz"))
+        terms = tuple(each for name, each in row_terms(arm, j).items() if name != "beta")
         yield Placed(LINK_GEOMETRY, f"link {j}", terms, (1.0,) * len(terms), "constant")
 
 
@@ -84,7 +91,7 @@ _ROW = {
     "a": "length a", "d": "length d", "alpha": "twist α", "theta": "turn θ", "beta": "twist β",
     "tx": "shift along x", "ty": "shift along y", "tz": "shift along z", "rx": "tilt about x", "ry": "tilt about y",
 }  # fmt: skip
-"""Numbers of a D-H row, or of a URDF's joint in axes whose z is the joint's own."""
+"""Numbers of a D-H row, or of a URDF's joint in the axes of its file (`armscope.robot.urdf_writing.axes_told`)."""
 
 
 def _differs(told: Told) -> str:
@@ -125,7 +132,7 @@ def background(arm: Arm) -> list[Placed]:
     """
     placed = [_offset(BACKGROUND, j) for j in range(1, arm.n_motors + 1)]
     for j in range(1, arm.n_joints + 1):
-        terms = tuple(term for name, term in row_terms(arm, j).items() if name not in ("theta", "rz"))
+        terms = tuple(row_terms(arm, j).values())
         placed.append(Placed(BACKGROUND, f"link {j}", terms, (1.0,) * len(terms), "constant"))
     return placed
 

@@ -117,6 +117,16 @@ def turns_of_file(arm: Arm) -> Array:
     return turns
 
 
+def axes_told(arm: Arm) -> Array:
+    """(n, 4, 4) turns from the axes in which errors of a URDF's joint are told to axes with z along the joint's axis.
+
+    They are the file's own, unless the joint turns about none of these: then there is no turn.
+    """
+    turns = np.linalg.inv(turns_of_file(arm))
+    along = np.isclose(np.abs(turns[:, 2, :3]).max(axis=1), 1.0, atol=1e-6)
+    return np.where(along[:, None, None], turns, np.eye(4))
+
+
 def origins_of_file(arm: Arm) -> Array:
     """(n, 4, 4) the origins of the chain's joints as their URDF states them."""
     elements = {

@@ -12,7 +12,7 @@ from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
 from armscope.robot import Arm
-from armscope.robot.urdf_writing import origins_of_file, turns_of_file
+from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.wording import implausible
@@ -81,7 +81,7 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
 
     Args:
         arm: of the URDF.
-        effect: a link's geometry: tx, ty, tz (mm), rx, ry (rad) along and about the joint's axes, z being its own.
+        effect: a link's geometry: tx, ty, tz (mm), rx, ry (rad) along and about the axes in which it is told.
         joint: its number, from 1.
 
     Returns:
@@ -92,8 +92,8 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
     turned = errors[3:] if np.abs(errors[3:]).max() > LEAST_TURN else np.zeros(3)
     moved = np.eye(4)
     moved[:3, 3], moved[:3, :3] = errors[:3], turned_by(turned)
-    stated, turn = origins_of_file(arm)[joint - 1], turns_of_file(arm)[joint - 1]
-    corrected: Array = stated @ turn @ moved @ np.linalg.inv(turn)
+    to_file = turns_of_file(arm)[joint - 1] @ axes_told(arm)[joint - 1]
+    corrected: Array = origins_of_file(arm)[joint - 1] @ to_file @ moved @ np.linalg.inv(to_file)
     return corrected
 
 
