@@ -98,6 +98,8 @@ def _relative(table, sign):
         (lambda t: replace(t, motor_angles=_relative(t, -1)), "q3 holds the forearm's angle relative to link 2"),
         (lambda t: replace(t, positions=t.positions * 1e-4), "Are these errors, measured minus nominal?"),
         (lambda t: replace(t, positions=t.positions / 10), "centimetres that were declared as millimetres"),
+        (lambda t: replace(t, positions=t.positions * [1, 1, 1e-3]), "z looks like metres, where x and y are millim"),
+        (lambda t: replace(t, positions=t.positions * [1e-3, 1, 1]), "x looks like metres, where y and z are millim"),
         (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
         (
             lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
@@ -131,6 +133,12 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
                 update={"joints": [row.model_copy(update={"alpha_deg": -row.alpha_deg}) for row in dh.joints]}
             ),
             "every alpha of the D-H rows has the other sign",
+        ),
+        (
+            lambda dh: dh.model_copy(
+                update={"joints": [row.model_copy(update={"a_mm": row.d_mm, "d_mm": row.a_mm}) for row in dh.joints]}
+            ),
+            "a and d of the D-H rows are exchanged. Exchange a_mm and d_mm",
         ),
     ],
 )

@@ -77,6 +77,14 @@ def _of_the_arm(arm: Arm) -> Iterator[Trial]:
         lambda table: table,
         lambda arm: _with_rows(arm, convention=other),
     )
+    exchanged = [row.model_copy(update={"a_mm": row.d_mm, "d_mm": row.a_mm}) for row in dh.joints]
+    yield Trial(
+        "D-H columns",
+        "a and d of the D-H rows are exchanged",
+        "Exchange a_mm and d_mm in every row of robot.yaml: a is along x, d along the joint's axis z.",
+        lambda table: table,
+        lambda arm: _with_rows(arm, joints=exchanged),
+    )
     mirrored = [row.model_copy(update={"alpha_deg": -row.alpha_deg}) for row in dh.joints]
     yield Trial(
         "D-H signs",
@@ -109,6 +117,11 @@ def _units() -> Iterator[Trial]:
     ):
         statement = f"the positions look like {right} that were declared as {wrong}"
         yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, factor)))
+    for axis, others in (("x", "y and z"), ("y", "x and z"), ("z", "x and y")):
+        enlarged = np.where(np.array(list("xyz")) == axis, 1e3, 1.0)
+        statement = f"{axis} looks like metres, where {others} are millimetres"
+        cure = f"Multiply {axis}_mm by 1000: all three need one unit."
+        yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, enlarged)))
 
 
 def _joints(n_motors: int) -> Iterator[Trial]:
