@@ -34,6 +34,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     add_completion=True,
+    context_settings={"help_option_names": ["--help", "-h"]},
 )
 app.add_typer(diagnosis.app)
 app.add_typer(compensation.app)
@@ -74,6 +75,18 @@ def options(
 
     Start with: armscope diagnose recordings.csv --robot robot.yaml -o out/
     """
+
+
+@app.command("help", hidden=True)
+def show_help(words: Annotated[list[str] | None, typer.Argument(help="a command")] = None) -> None:
+    """What `armscope --help`, or that of a command, says: git and others answer to this word, too."""
+    app([*(words or []), "--help"], prog_name="armscope")
+
+
+@app.command("version", hidden=True)
+def show_version() -> None:
+    """What `armscope --version` says."""
+    _tell_version(True)
 
 
 @app.command("schema", rich_help_panel=EXPERIMENTS)

@@ -27,6 +27,8 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 WRITTEN = object()
 ALIKE, SOMEHOW_ALIKE = 0.7, 0.5
 """Likeness (0 to 1) from which a name is taken for a misspelt one: any, and one with the same ending."""
+NOMINAL = ("robot", "nominal")
+"""Parameters of this name are an arm: a file, or a name in the library."""
 WORKBOOKS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]
@@ -97,7 +99,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
         reads = _paths(value for name, value in values.items() if name not in outputs)
         for name, value in values.items():
             absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
-            _refuse_absent([path for path in absent if not (name == "robot" and _in_library(path))], hints[name])
+            _refuse_absent([path for path in absent if not (name in NOMINAL and _in_library(path))], hints[name])
         writes = _paths(value for name, value in values.items() if name in outputs)
         _refuse_workbooks(writes)
         delivery = Delivery(command, reads, writes, force)

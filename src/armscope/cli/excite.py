@@ -22,7 +22,8 @@ MOST_SAMPLES = 1_000_000
 
 @app.command()
 def excite(
-    robot: Annotated[Path, typer.Argument(help="robot.yaml with masses; limits in `drives` or its URDF")],
+    robot: Annotated[Path | None, typer.Argument(help="robot.yaml with masses; limits in `drives` or its URDF")] = None,
+    nominal: Annotated[Path | None, typer.Option("--robot", "-r", help="the arm, as for other commands")] = None,
     output: Annotated[Path, typer.Option("--output", "-o", help="motion to play; .json and .png beside it")] = Path(
         "trajectory.csv"
     ),
@@ -54,7 +55,7 @@ def excite(
     if rate_hz * period_s > MOST_SAMPLES:
         asked = f"{rate_hz * period_s:.3g} samples"
         raise InputError("--rate-hz", "", asked, f"--rate-hz times --period-s: at most {MOST_SAMPLES:,} samples")
-    arm = load_arm(robot)
+    arm = load_arm(_only_one(robot, nominal))
 
     from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
     from armscope.poses.exciting.search import MotionRequest
@@ -75,6 +76,21 @@ def excite(
         save_figure(figure, output.with_suffix(".png"), formats=("png", "svg"))
     _tell(found)
     print(output)
+
+
+def _only_one(robot: Path | None, nominal: Path | None) -> Path:
+    """The arm, by whichever of the two ways it was given.
+
+    Raises:
+        InputError: by none, or by both.
+    """
+    if robot is not None and nominal is not None:
+        raise InputError("--robot", "", str(nominal), f"one arm; {robot} was given before it", "Leave one of them out.")
+    arm = robot or nominal
+    if arm is None:
+        cure = "armscope excite robot.yaml -o trajectory.csv"
+        raise InputError("excite", "", "no arm", "needed here: robot.yaml with masses, or a URDF", f"Say: {cure}")
+    return arm
 
 
 def _told(done: int, of: int) -> None:
