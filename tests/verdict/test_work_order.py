@@ -21,12 +21,13 @@ from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import corrected_rows, zero_offsets
 from armscope.verdict.effects import Alternative, Cause, Parameter
+from armscope.verdict.entries import angle, length
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import HeldOut
-from armscope.verdict.tasks import angle, task_of
+from armscope.verdict.tasks import task_of
 from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
@@ -42,6 +43,14 @@ def test_every_effect_has_a_change() -> None:
 def test_an_angle_has_its_sign_in_degrees_and_in_mrad() -> None:
     assert angle(-1e-3) == "−0.0573° (−1.000 mrad)"
     assert angle(0.0) == "0.0000° (0.000 mrad)"
+
+
+def test_what_is_entered_has_its_interval_and_no_digit_that_means_nothing() -> None:
+    assert angle(-3.1034e-3, 2e-4) == "−0.178° (−3.10 mrad ± 0.39)"
+    assert angle(-3.1034e-3, 5e-7) == "−0.1778° (−3.103 mrad ± 0.001)"
+    assert length(0.5951, 0.009) == "+0.595 mm (± 0.018)"
+    # known only together with another: what all of them do must survive the rounding of each, to 0.01 mm
+    assert length(-0.1152, 1.7) == "−0.12 mm (± 3.33)"
 
 
 def degrees(words: str) -> list[float]:
@@ -223,7 +232,7 @@ def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
     rule = task_of(model.scene(case.recordings), cause, wave).cure
     formula, _, numbers = rule.partition("commanded = wanted - ")[2].partition(". Here ")
     assert formula == "amplitude x cos(per_turn x wanted - phase)"
-    assert numbers == "amplitude = +0.0344° (+0.600 mrad), per_turn = 2, phase = −40.11°."
+    assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11°."
 
 
 def test_a_compliance_without_masses_has_no_number_to_enter_and_says_who_has_it() -> None:

@@ -15,6 +15,7 @@ from armscope.robot import Arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL, FoundEffect
+from armscope.verdict.entries import entry_decimals
 from armscope.verdict.wording import implausible
 
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
@@ -55,6 +56,29 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
             row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def corrected_cells(verdict: Diagnosis) -> list[list[str]]:
+    """The same rows to be read by people: number of the row, then stated and corrected by turns.
+
+    What is corrected has its interval beside it and as many decimals as that leaves; what is not says "same".
+    """
+    table = corrected_rows(verdict)
+    known = {
+        (e.location, p.name): p.stderr for e in verdict.effects if e.effect == LINK_GEOMETRY.name for p in e.parameters
+    }
+    rows = []
+    for row in [] if table is None else table.to_dict("records"):
+        cells = [str(row["row"])]
+        for name, key in zip(NUMBERS, ("a", "alpha", "d", "theta"), strict=True):
+            stderr = known.get((f"link {row['row']}", key), math.nan)
+            unit, stderr = ("°", math.degrees(stderr)) if name.endswith("deg") else ("mm", stderr)
+            decimals, half = entry_decimals(unit, stderr), INTERVAL * stderr
+            beside = f" ± {half:.{decimals}f}" if half > 0 else ""
+            changed = f"{row[f'corrected_{name}']:.{decimals}f}{beside}" if row[f"correction_{name}"] else "same"
+            cells += [f"{row[f'stated_{name}']:.10g}", changed]
+        rows.append([cell.replace("-", "−") for cell in cells])
+    return rows
 
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:

@@ -20,6 +20,7 @@ from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
 from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
+from armscope.verdict.entries import angle, length, with_sign
 from armscope.verdict.sentences import phrase
 from armscope.verdict.wording import capitalised, implausible, read_parameter
 
@@ -82,7 +83,8 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
-        words["zero"] = f"where the controller shows 0°, the joint stands at {angle(told['offset'].value)}"
+        stands = angle(told["offset"].value, told["offset"].stderr)
+        words["zero"] = f"where the controller shows 0°, the joint stands at {stands}"
     if "compliance" in told:
         size = read_parameter(told["compliance"], effect.effect)
         words["size"] = f" (minus {size.value} × load)"
@@ -158,7 +160,7 @@ def _number(parameter: Parameter, effect: FoundEffect) -> str:
     if parameter.name == "per_turn":
         return f"{parameter.value:g}"
     if parameter.unit == "rad" and parameter.name != "phase":
-        return angle(parameter.value)
+        return angle(parameter.value, parameter.stderr)
     return read_parameter(parameter, effect.effect).value
 
 
@@ -169,7 +171,7 @@ def _jump(effect: FoundEffect) -> str:
         return f" (it jumped by {angle(zero)})"
     named = {"rx": "about x", "ry": "about y", "rz": "about z"}
     told = [
-        f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {_signed(p.value, 3)} mm"
+        f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {with_sign(p.value, 3)} mm"
         for p in effect.parameters
         if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > LEAST_TURN)
     ]
@@ -177,16 +179,11 @@ def _jump(effect: FoundEffect) -> str:
     return f" (it jumped by {', '.join(told)} in {axes})" if told else ""
 
 
-def angle(radians: float) -> str:
-    """An angle with its sign, in degrees and mrad."""
-    return f"{_signed(math.degrees(radians), 4)}° ({_signed(1e3 * radians, 3)} mrad)"
-
-
 def _row(effect: FoundEffect) -> Iterator[str]:
     for p in effect.parameters:
         if implausible(p, effect):
             continue
-        size = f"{_signed(p.value, 3)} mm" if p.unit == "mm" else angle(p.value)
+        size = length(p.value, p.stderr) if p.unit == "mm" else angle(p.value, p.stderr)
         yield f"{p.name} = stated {p.name} {size}"
 
 
@@ -227,13 +224,8 @@ def _range(amount: Array, turning: bool) -> str:
         low = high = float(amount.mean())
     ends = [low] if low == high else [low, high]
 
-    small = " … ".join(_signed(1e3 * end, 3) for end in ends)
+    small = " … ".join(with_sign(1e3 * end, 3) for end in ends)
     if not turning:
         return f"{small} mm"
-    degrees = " … ".join(_signed(math.degrees(end), 4) for end in ends)
+    degrees = " … ".join(with_sign(math.degrees(end), 4) for end in ends)
     return f"{small} mrad ({degrees}°)"
-
-
-def _signed(value: float, decimals: int) -> str:
-    text = f"{value:+.{decimals}f}"
-    return (text if float(text) else text[1:]).replace("-", "−")

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 from markupsafe import Markup
 
 from armscope.core.averages import rms
@@ -18,8 +19,10 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.controllers import ur_kinematics
-from armscope.verdict.corrections import corrected_origins, corrected_rows, zero_offsets
+from armscope.verdict.corrections import corrected_cells, corrected_origins, corrected_rows, zero_offsets
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import INTERVAL
+from armscope.verdict.entries import angle
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
@@ -69,13 +72,20 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "background": percent(verdict.background.share),
-        "dh": None if rows is None else rows.to_dict("records"),
+        "dh": corrected_cells(verdict),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
-        "zeros": zeros[zeros["cause"] == "named"].to_dict("records"),
+        "zeros": _zeros_in_words(zeros),
         "tables": [ZEROS, *([ORIGINS] if rows is None else [ROWS]), *([UR] if kinematics else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
+
+
+def _zeros_in_words(zeros: pd.DataFrame) -> list[tuple[str, str]]:
+    """(joint, by how much it is turned) of the zeros that were named."""
+    named = zeros[zeros["cause"] == "named"]
+    turns, halves = named["actual_minus_commanded_mrad"] * 1e-3, named["half_interval_95_mrad"] * 1e-3
+    return [(str(j), angle(turn, half / INTERVAL)) for j, turn, half in zip(named["joint"], turns, halves, strict=True)]
 
 
 def _about(verdict: Diagnosis) -> dict[str, Any]:
