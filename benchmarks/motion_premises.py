@@ -3,8 +3,8 @@
 Nothing of the package makes them: Newton-Euler in D-H frames, in plain NumPy (Luh, Walker & Paul 1980), friction,
 drives and sensors. Arms have three to six joints and masses drawn anew for each seed. Motions are waves, or moves from
 point to point with pauses, in which dry friction stays at a share of what it was. What is concealed is five times as
-large as the noise at its joint where it has a size, and some of it is in no library: a dead zone and a cut-off channel,
-friction that warms up unrecorded, a speed that is reported late.
+large as the noise at its joint where it has a size, and some of it is in no library: a dead zone, friction that warms
+up unrecorded. A channel that is cut off and a speed that is reported late should name nothing.
 
     python -m benchmarks.motion_premises [--seeds 1 2 3] [--kinds clean payload ...]
 """
@@ -72,7 +72,7 @@ KINDS: dict[str, Kind] = {
     "ripple": Kind("torque_ripple", lambda q, dq, t: np.sin(17 * q)),
     "spring": Kind("gravity_balance", lambda q, dq, t: q - q.mean() + 0.3),
     "dead zone": Kind("unknown", read=lambda x, usual: np.sign(x) * np.maximum(np.abs(x) - DEAD * usual, 0)),
-    "cut off": Kind("unknown", read=lambda x, usual: np.clip(x, *np.array([-1, 1]) * np.percentile(np.abs(x), 90))),
+    "cut off": Kind(read=lambda x, usual: np.clip(x, *np.array([-1, 1]) * np.percentile(np.abs(x), 90))),
     "late speed": Kind(columns=("speed",)),
     "gravity": Kind("gravity_direction"),
     "warm": Kind("thermal_friction", _warm, size=0.04, columns=("temperature",)),

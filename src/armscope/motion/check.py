@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.samples.constants import READING
+from armscope.motion.samples.timing import limits
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
@@ -99,15 +99,23 @@ def _one_way(motions: Motions) -> list[Notice]:
 
 
 def _cut_off(motions: Motions) -> list[Notice]:
-    notices, several = [], READING.at_the_limit
-    for name, values in zip(channels(motions), motions.effort.T, strict=True):
-        for limit in (values.max(), values.min()) if np.ptp(values) > 0 else ():
-            at = np.flatnonzero(np.convolve(values == limit, np.ones(several), "valid") == several)
-            if len(at):
-                text = f"{name} stays at {limit:.4g}, the farthest it goes, from row {at[0] + 2} on. "
-                why = "Was the channel cut off there? What lies beyond looks like friction, or like an unknown torque."
-                notices.append(Notice("cut off", text + why))
-                break
+    at = np.zeros(motions.effort.shape, dtype=np.bool_)
+    for run in motions.runs:
+        there = motions.run == run
+        least, most = limits(motions.effort[there])
+        at[there] = (motions.effort[there] <= least) | (motions.effort[there] >= most)
+    notices = []
+    for j, name in enumerate(channels(motions)):
+        if at[:, j].any():
+            rows = np.flatnonzero(at[:, j])
+            both = dict.fromkeys(f"{end(motions.effort[rows, j]):.4g}" for end in (np.min, np.max))
+            where = f"{' and '.join(both)}, the farthest it goes, in {len(rows)} samples, first in row {rows[0] + 2}"
+            text = (
+                f"{name} stays at {where}: it is cut off there, and what lies beyond is not known. These samples, and "
+                f"what the low-pass mixes with them, take no part in the fit of joint {j + 1}. Record with a wider "
+                "range, or more slowly."
+            )
+            notices.append(Notice("cut off", text))
     return notices
 
 

@@ -24,7 +24,7 @@ from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_lin
 from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
-from armscope.motion.samples.timing import Stretch, mended, stretches
+from armscope.motion.samples.timing import Stretch, limits, mended, stretches
 from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.holding_out import (
     Fold,
@@ -187,9 +187,11 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
     """Stretches to fit, and stretches that take no part; effort as torque."""
     train: list[Stretch] = []
     test: list[Stretch] = []
+    ends = {run: limits(motions.effort[motions.run == run]) for run in motions.runs}
     for stretch in stretches(motions):
         if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
-            as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind))
+            cut = (stretch.effort <= ends[stretch.run][0]) | (stretch.effort >= ends[stretch.run][1])
+            as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind), cut=cut)
             (test if stretch.run in held_out else train).append(as_torque)
     if not train and test:
         rule = "a run at least takes part in the fit"

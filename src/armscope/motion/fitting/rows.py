@@ -45,7 +45,7 @@ class MotionRows:
         time, run, stretch: (K,) of each row.
         q, dq: (K, m) positions, velocities.
         torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for.
-        still: (K, m) where a joint stands, and its friction may be anything.
+        still: (K, m) that tell nothing: a joint stands, and its friction may be anything; or its torque was cut off.
         columns, at: of each joint (K, p_j), and (p_j,) where these columns stand.
         gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
             is true torque is recorded. A gain's own column is the stated torque, so that
@@ -260,7 +260,7 @@ class _Piece:
             order = np.argsort(np.concatenate(index))
             columns.append(np.hstack(made)[:, order].astype(np.float32))
             at.append(np.concatenate(index)[order])
-        still = stands(layout.arm, signals, self.moment.rate)[kept]
+        still = stands(layout.arm, signals, self.moment.rate)[kept] | (False if signals.cut is None else signals.cut)
         fresh = regressor is not None  # else they are the rows' that are renewed
         return MotionRows(
             layout=layout,

@@ -171,6 +171,12 @@ class ReadingRules(Constants):
         "judgement: noise repeats no value",
         unit="samples",
     )
+    cut_reach: float = constant(
+        1.0,
+        "of the torques' cut-off, within which a row holds some of what was cut off",
+        "derived: of the low-pass's impulse response 1 % is beyond",
+        unit="periods",
+    )
 
 
 @dataclass(frozen=True)

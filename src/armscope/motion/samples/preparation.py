@@ -13,10 +13,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
-from armscope.motion.samples.constants import CUTOFF, FILTER
+from armscope.motion.samples.constants import CUTOFF, FILTER, READING
 from armscope.motion.samples.link_band import link_bands
 from armscope.motion.samples.timing import Stretch
 
@@ -186,11 +187,11 @@ class Signals:
         q, dq, ddq: (N, m) filtered positions and their derivatives.
         effort: (K, m) of the rows, low-passed, N m (N) or A; none where every sample is kept.
         payload: (N,) kg; temperature: (N, m) deg C; each or None.
-        kept: (K,) which samples become rows.
-        stride: of the samples, to the recorded ones.
-        shift: (N, m) by how much the links stand beside their motors, less the middle of it in the stretch, with two
-            derivatives; 0 of joints whose link has no encoder, or one that tells noise. None where no link has one.
+        kept: (K,) which samples become rows; stride: of the samples, to the recorded ones.
+        shift: (N, m) links less motors, less the middle of it in the stretch, with two derivatives; 0 of joints whose
+            link has no encoder, or one that tells noise. None where no link has one.
         twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
+        cut: (K, m) rows that hold some effort that was cut off; or None.
     """
 
     run: str
@@ -206,6 +207,7 @@ class Signals:
     stride: int = 1
     shift: tuple[Array, Array, Array] | None = None
     twist: Array | None = None
+    cut: NDArray[np.bool_] | None = None
 
     @functools.cached_property
     def _paths(self) -> dict[int, BSpline]:
@@ -278,6 +280,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         stride,
         shift,
         None if twist is None or every_sample else how.low_passed(twist, rows - low),
+        stretch.cut_about(rows, READING.cut_reach / how.cutoff),
     )
 
 

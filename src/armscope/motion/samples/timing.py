@@ -6,18 +6,22 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.averages import robust_scale
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
-from armscope.motion.samples.constants import TIMING
+from armscope.motion.samples.constants import READING, TIMING
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
-    """Evenly sampled samples of one run, without a gap; arrays as in `Motions`, ``effort`` in N m (N) or A."""
+    """Evenly sampled samples of one run, without a gap; arrays as in `Motions`, ``effort`` in N m (N) or A.
+
+    ``cut``: (N, m) where the effort was cut off at the most that its channel shows; None for nowhere.
+    """
 
     run: str
     rate: float
@@ -27,9 +31,30 @@ class Stretch:
     payload: Array | None
     temperature: Array | None
     link: Array | None = None
+    cut: NDArray[np.bool_] | None = None
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def cut_about(self, rows: Indices, reach: float) -> NDArray[np.bool_]:
+        """(K, m) whether the effort was cut off within a time, s, of some samples (K,)."""
+        if self.cut is None:
+            return np.zeros((len(rows), self.q.shape[1]), dtype=np.bool_)
+        before, samples = np.vstack([np.zeros_like(self.cut[:1], dtype=int), np.cumsum(self.cut, axis=0)]), len(self)
+        by = int(np.ceil(reach * self.rate))
+        return np.asarray(before[np.minimum(rows + by + 1, samples)] > before[np.maximum(rows - by, 0)])
+
+
+def limits(effort: Array) -> tuple[Array, Array]:
+    """(m,) least and largest effort that channels (N, m) show where they were cut off; without end where they were not.
+
+    Noise repeats no value: one that a channel keeps for several samples in a row, and never exceeds, is its limit.
+    """
+    several, found = np.ones(READING.at_the_limit), []
+    for limit, end in ((effort.min(axis=0), -np.inf), (effort.max(axis=0), np.inf)):
+        held = [np.convolve(at, several, "valid").max() == len(several) for at in (effort == limit).T]
+        found.append(np.where(held & (np.ptp(effort, axis=0) > 0), limit, end))
+    return found[0], found[1]
 
 
 def mended(motions: Motions) -> tuple[Motions, list[Notice]]:
