@@ -52,6 +52,26 @@ def test_small_errors_that_the_evidence_does_not_ask_for_are_told_with_their_sha
     assert "possibly" not in headline(verdicts.single().verdict)
 
 
+def test_small_errors_that_no_family_is_sure_of_have_their_share_where_it_is_large(verdict) -> None:  # noqa: F811
+    """What gives way everywhere took a quarter of a real arm's error and no share, and so the shares did not add up."""
+    named = verdict.model.parts
+    unsure = replace(
+        verdict,
+        model=replace(verdict.model, parts=named[1:], background=(*verdict.model.background, named[0])),
+        effects=tuple(e for e in verdict.effects if e.location != named[0].placed.location),
+        background=replace(verdict.background, present=False),
+        background_families=tuple(replace(each, present=False, share=0.0) for each in verdict.background_families),
+    )
+    told = with_importance(unsure)
+    families = {each.family: each.share for each in told.background_families}
+    worth = contributions(unsure)
+    assert families[named[0].placed.family] > 0.05
+    explained = 1 - (rms(worth.left) / rms(worth.before)) ** 2
+    assert sum(e.share for e in told.effects) + sum(families.values()) == pytest.approx(explained, abs=0.01)
+    assert rms(worth.left) == pytest.approx(verdict.residual_after_mm, rel=0.1)
+    assert "ossibly" in told.headline
+
+
 @pytest.mark.parametrize(("against", "small"), [(-0.05, True), (-0.5, False)])
 def test_what_hides_what_another_does_is_major_where_it_is_large(verdict, against: float, small: bool) -> None:  # noqa: F811
     """Its share is below zero either way: alone its cure makes the error larger, but the place is off by as much."""

@@ -143,6 +143,17 @@ class Ground:
         residuals = self.verdict.residuals
         return self.free(residuals.after[self.rows]), self.free(residuals.before[self.rows])
 
+    def left_and_small(self, explained: Array) -> tuple[Array, dict[str, Array]]:
+        """What is left (n, 3) beside named effects that explain so much, and by family the small errors without a name.
+
+        Small errors that the evidence does not ask for and that move next to nothing are part of what is left.
+        """
+        left, before = self.left_and_before()
+        rest = before - left - explained
+        if not self.verdict.background.present and rms(rest) ** 2 < SEEN * rms(before) ** 2:
+            return before - explained, {}
+        return left, self.small(rest)
+
     def small(self, rest: Array) -> dict[str, Array]:
         """By family, (n, 3) of the small errors without a name.
 
@@ -183,11 +194,9 @@ def contributions(verdict: Diagnosis) -> Contributions:
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None
     single = tuple(alone(effect) for effect in rest)
-    left, before = ground.left_and_before()
-    explained = sum((cause.moved for cause in (*causes, *([smaller] if smaller else []))), np.zeros_like(left))
-    if not verdict.background.present:  # tiny, and without a line of its own
-        return Contributions(ground.rows, before - explained, causes, smaller, {}, single)
-    return Contributions(ground.rows, left, causes, smaller, ground.small(before - left - explained), single)
+    named = (cause.moved for cause in (*causes, *([smaller] if smaller else [])))
+    left, small = ground.left_and_small(sum(named, np.zeros((len(ground.rows), 3))))
+    return Contributions(ground.rows, left, causes, smaller, small, single)
 
 
 def _frames(verdict: Diagnosis, posture: Posture) -> Array:

@@ -48,19 +48,17 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
         headline.
     """
     ground, parts = ground_of(draft), parts_of(draft)
-    left, before = ground.left_and_before()
+    _, before = ground.left_and_before()
     squared = float(np.sum(before**2))
     if not squared:
         return replace(draft, headline=headline(draft))
 
+    moved = [ground.moved_by(parts[id(effect)]) for effect in draft.effects]
+    left, small = ground.left_and_small(sum(moved, np.zeros_like(before)))
+
     def share(moved: Array) -> float:
         return float(np.sum(moved * (before + left))) / squared
 
-    moved = [ground.moved_by(parts[id(effect)]) for effect in draft.effects]
-    explained = sum(moved, np.zeros_like(left))
-    small = ground.small(before - left - explained) if draft.background.present else {}
-    if not small:  # tiny, and without a line of its own
-        left = before - explained
     families = tuple(
         replace(each, share=share(small[each.family]) if each.family in small else 0.0)
         for each in draft.background_families
