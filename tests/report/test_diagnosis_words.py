@@ -137,7 +137,19 @@ def test_what_is_left_is_called_noise_only_where_it_is():
     for doubtful in ({"notices": (told,)}, {"unexplained": Unexplained(True, "base", "time", 0.05)}):
         said = headline(verdicts.case(effects=(compliance(),), **doubtful).verdict)
         assert "are noise" not in said
-        assert "more than noise" in said
+        assert "not yet explained" in said
+
+
+def test_what_is_more_than_noise_stands_beside_what_noise_alone_would_leave():
+    told = Notice("model error", "What is left is more than noise, and no effect explains it.")
+    few = {"notices": (told,), "residual_after_mm": 0.034, "noise_mm": 0.012}
+    said = headline(verdicts.case(effects=(compliance(),), noise_source="from residuals", **few).verdict)
+    assert said.endswith(
+        "0.034 mm remain, where noise alone would leave 0.012 mm at most: something is not yet explained."
+    )
+    scatter = found("unknown", "joint 5", Parameter("scatter", "rad", 2e-4, 1e-5), share=0.2)
+    said = headline(verdicts.case(effects=(compliance(), scatter), noise_source="stated", **few).verdict)
+    assert "0.034 mm remain, the scatter included, where noise alone would leave 0.012 mm: something" in said
 
 
 def test_a_model_that_makes_other_rows_worse_says_so_before_anybody_acts_on_it():

@@ -75,7 +75,20 @@ def test_evidence_is_told_as_odds(nats, words):
 
 @pytest.mark.parametrize(
     ("share", "text"),
-    [(0.553, "55 %"), (0.0949, "9.5 %"), (0.0123, "1.2 %"), (1e-5, "< 0.1 %"), (53.0, "over 100 %"), (math.nan, "–")],
+    [
+        (0.553, "55 %"),
+        (0.0949, "9.5 %"),
+        (0.0123, "1.2 %"),
+        (1e-5, "< 0.1 %"),
+        (53.0, "over 100 %"),
+        (math.nan, "–"),
+        (0.9991, "99.9 %"),
+        (0.99999, "99.9 %"),
+        (0.9951, "99.5 %"),
+        (0.9949, "99 %"),
+        (1.0, "100 %"),
+        (1.02, "100 %"),
+    ],
 )
 def test_shares_carry_no_false_digits(share, text):
     assert percent(share) == text

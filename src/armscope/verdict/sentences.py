@@ -23,6 +23,7 @@ from armscope.verdict.wording import (
     plain,
     reach,
     spelled,
+    still_open,
 )
 
 ANOTHER_MODEL = "another model"
@@ -218,13 +219,12 @@ def _unsure(verdict: Diagnosis) -> Iterator[str]:
 
 def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves."""
-    left = millimetres(verdict.residual_after_mm)
     if makes_worse(verdict):
         before, after = millimetres(verdict.held_out.before), millimetres(verdict.held_out.after)
         return f"but rows that took no part in the fit get worse by it, from {before} to {after}: do not act on it yet"
     if more_than_noise(verdict):
-        return f"{left} remain, more than noise and not yet explained"
-    return f"the {left} that remain are noise"
+        return still_open(verdict)
+    return f"the {millimetres(verdict.residual_after_mm)} that remain are noise"
 
 
 def phrase(effect: FoundEffect) -> str:

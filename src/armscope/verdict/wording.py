@@ -11,6 +11,7 @@ import numpy as np
 from armscope.core.numerals import shown_unit
 from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
+from armscope.verdict.schema import Verdict
 
 LABELS = {
     "amplitude": "swing (± about the mean)",
@@ -179,10 +180,23 @@ def percent(share: float) -> str:
     value = 100 * share
     if value > 105:
         return "over 100 %"  # it and another nearly cancel: the number itself says nothing
+    if 99.5 <= value < 100:
+        return f"{min(value, 99.9):.1f} %"  # beside what remains, "100 %" would be read as all of it
     if abs(value) < 0.05:
         return "< 0.1 %"
     text = f"{min(value, 100):.0f} %" if abs(value) >= 9.5 else f"{value:.1f} %"
     return text.replace("-", "−")
+
+
+def still_open(verdict: Verdict) -> str:
+    """What remains where that is more than noise, beside what noise alone would leave; a clause."""
+    left, noise = verdict.residual_after_mm, verdict.noise_mm
+    named = any(p.name == "scatter" for effect in verdict.effects for p in effect.parameters)
+    remain = f"{millimetres(left)} remain{', the scatter included' if named else ''}"
+    if not noise < left:
+        return f"{remain}, more than noise and not yet explained"
+    at_most = " at most" if "residuals" in verdict.noise_source else ""
+    return f"{remain}, where noise alone would leave {millimetres(noise)}{at_most}: something is not yet explained"
 
 
 def millimetres(value: float | None) -> str:
