@@ -92,7 +92,7 @@ def complaint(file, **options):
                 ("1-Mar", "took a number for a date"),
                 ("1.25D+02", "exponent with E"),
                 ("2024-05-01T10:00:00", "Write seconds"),
-                ("３.５", "Correct it, or remove the row"),
+                ("３.５", "Write digits 0 to 9"),
                 ("0x1F", "Correct it, or remove the row"),
             )
         ),

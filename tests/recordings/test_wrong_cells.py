@@ -21,6 +21,10 @@ from armscope.recordings.wrong_cells import how_to_mend, how_to_scale
         ("#DIV/0!", "formula"),
         ("12 mm", "number alone"),
         ("−12.5", "hyphen"),
+        ("'1.33", "Remove the apostrophe"),
+        ("12°30'00\"", "one decimal number"),
+        ("-0.0019\0\000832", "zero bytes"),
+        ("\uff11.33", "narrow"),
         ("wide", "Correct it"),
     ],
 )

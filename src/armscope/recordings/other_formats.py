@@ -6,6 +6,12 @@ import re
 from collections.abc import Sequence
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
+_PROGRAM = re.compile(
+    r"\s*(module|(local )?(const|pers|var)|proc|mov(e?[jlc]|eabsj)|&access|def|decl|e6(axis|pos)|ptp|lin|/job)\b",
+    re.IGNORECASE,
+)
+"""How lines of RAPID, KRL, URScript and INFORM begin."""
+_COMMENT = ("#", "%", "//", ";", "!")
 _TO_CSV = "Save it as CSV: a first line with the columns' names, then a row per point, separated by commas."
 
 
@@ -34,6 +40,12 @@ def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:
         return f"JSON, {line[:40]!r}", "tables are CSV", _TO_CSV
     if line.startswith("<"):
         return f"HTML or XML, {line[:40]!r}", "tables are CSV", _TO_CSV
+    if _PROGRAM.match(line) and "q1" not in line.lower():
+        cure = "Write its poses as a table: a first line q1_deg,...,x_mm,y_mm,z_mm, then a row per pose."
+        return f"a robot's program, {line[:40]!r}", "tables are CSV", cure
+    if len(header) == 1 and line.startswith(_COMMENT):
+        cure = f"Remove the lines above the columns' names. Or {by_draft}"
+        return f"a comment, {line[:40]!r}", "the first line names the columns", cure
     if len(header) == 1 and re.search(r"[;\t|]|\S\s+\S+\s+\S", line):
         return line, "columns are separated by commas", by_draft
     if len(header) > 1 and all(_NUMBER.fullmatch(cell.strip()) for cell in header):

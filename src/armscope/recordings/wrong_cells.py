@@ -16,6 +16,10 @@ _CURES = (
         r"[-+]?\d{1,3}(['’ \u00a0\u202f_]\d{3})+([.,]\d+)?|[-+]?\d{1,3}(,\d{3})+\.\d+",
         "Write it without signs between thousands, and with a decimal point.",
     ),
+    (r".*\0.*", "These are zero bytes, as a copy that was broken off leaves: save the table again."),
+    (r"\d+\s*[°d]\s*\d+\s*['’′m].*", "Write degrees, minutes and seconds as one decimal number."),
+    (r"['’`].*", "Remove the apostrophe, by which spreadsheets mark text."),
+    (r".*(?![0-9])\d.*", "Write digits 0 to 9 of the narrow kind."),
     (r".*,.*", "Use a decimal point."),
     (r"[-+]?[\d.]+d[-+]?\d+", "Write the exponent with E."),
     (
