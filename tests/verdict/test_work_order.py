@@ -235,6 +235,20 @@ def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
     assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11°."
 
 
+def test_how_far_something_jumped_has_its_interval() -> None:
+    """Seen on a real arm: a zero that jumped by −2.6598° (−46.422 mrad), known to ± 4.6 mrad."""
+    slipped = verdicts.found(
+        "zero_shift", "joint 2", Parameter("jump", "rad", -46.42e-3, 2.37e-3), Parameter("row", "1", 14.0, 0.0)
+    )
+    moved = verdicts.found(
+        "tool_shift", "tool", Parameter("x", "mm", -1.4891, 0.17), Parameter("row", "1", 86.0, 0.0)
+    )  # fmt: skip
+    for effect, told in ((slipped, "jumped by −2.660° (−46.42 mrad ± 4.65)"), (moved, "jumped by x −1.49 mm (± 0.33)")):
+        case = verdicts.case(effects=(effect,))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        assert told in task_of(model.scene(case.recordings), cause, effect).instruction
+
+
 def test_a_compliance_without_masses_has_no_number_to_enter_and_says_who_has_it() -> None:
     products = [Parameter(f"compliance_times_moment_{n}", "rad/(m/s^2)", 1e-5, 1e-6) for n in (1, 2)]
     soft = verdicts.found("joint_compliance", "joint 2", *products)

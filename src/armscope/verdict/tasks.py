@@ -166,12 +166,12 @@ def _number(parameter: Parameter, effect: FoundEffect) -> str:
 
 def _jump(effect: FoundEffect) -> str:
     """How far and which way: of a joint, or in the axes of what jumped."""
-    zero = next((p.value for p in effect.parameters if p.name == "jump"), None)
+    zero = next((p for p in effect.parameters if p.name == "jump"), None)
     if zero is not None:
-        return f" (it jumped by {angle(zero)})"
+        return f" (it jumped by {angle(zero.value, zero.stderr)})"
     named = {"rx": "about x", "ry": "about y", "rz": "about z"}
     told = [
-        f"{named[p.name]} {angle(p.value)}" if p.name in named else f"{p.name} {with_sign(p.value, 3)} mm"
+        f"{named[p.name]} {angle(p.value, p.stderr)}" if p.name in named else f"{p.name} {length(p.value, p.stderr)}"
         for p in effect.parameters
         if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > LEAST_TURN)
     ]
