@@ -77,6 +77,11 @@ def said(found: MotionDiagnosis) -> dict[tuple[str, str], dict[str, tuple[float,
     }
 
 
+def telling(found: MotionDiagnosis) -> set[tuple[str, str]]:
+    """Causes that are names and no minor ones: what a reader is told to look at."""
+    return {(each.effect, each.location) for each in found.verdict.effects if not (each.minor or each.nameless)}
+
+
 def alternatives(found: MotionDiagnosis, place: str) -> set[str]:
     """What could stand in the place of causes at a joint."""
     every = (other for each in found.verdict.effects for other in each.alternatives)
@@ -89,14 +94,15 @@ def judge(arm: MovingArm, motions: Motions, before: MotionDiagnosis, name: str, 
     changed, size = planted(motions, name, joint, rms / unit)
     after, place = diagnose_motion(arm, changed), f"joint {joint + 1}"
     was, now = said(before), said(after)
-    new = sorted(f"{e} {p}" for e, p in now.keys() - was.keys() - {(name, place)})
+    new = now.keys() - was.keys() - {(name, place)}
     size *= unit if name not in ("motor_constant", "torque_delay") else 1.0
     there = "named" if (name, place) in now else "alternative" if name in alternatives(after, place) else "MISSED"
     parameter = CAUSES[name][1]
     value, error = now.get((name, place), {}).get(parameter, (float("nan"), float("nan")))
     value -= was.get((name, place), {}).get(parameter, (0.0, 0.0))[0]
     held = abs(value - size) <= 1.96 * error
-    beside = f"; new beside: {', '.join(new)}" if new else ""
+    told = {"; new beside: ": new & telling(after), "; minor: ": new - telling(after)}
+    beside = "".join(words + ", ".join(sorted(f"{e} {p}" for e, p in which)) for words, which in told.items() if which)
     return f"{name} {place}: {there}, {value:.4g} +- {1.96 * error:.2g} for {size:.4g} {held}{beside}"
 
 
