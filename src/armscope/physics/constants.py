@@ -214,9 +214,10 @@ class FormRules(Constants):
     )
     growth_waves: int = constant(3, "the same of a link's length", "judgement: castings follow a hall in hours")
     sessions_per_slip: int = constant(
-        100,
+        10,
         "without a joint whose zero jumps while the arm is measured, for one with: the prior pays for it",
-        "judgement: arms are homed and crash between sessions; what every arm has may look like it on ordered poses",
+        "judgement: arms are homed and crash between sessions, and bases are bumped oftener; on ordered poses what "
+        "every arm has may look like it; one real arm and one world of the proof were in view",
         unit="sessions",
     )
     numbers_per_orientation_value: int = constant(
