@@ -9,6 +9,7 @@ from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.summary import doubts, tenable
 from armscope.recordings.motions import as_motions
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import behind_its_drive, robot
 
 SOFT = 6e-3
@@ -28,20 +29,31 @@ def number_of(found: MotionDiagnosis) -> int:
 def test_a_size_that_no_two_paths_tell_is_undetermined(gives_way: MotionDiagnosis) -> None:
     number = number_of(gives_way)
     alone = np.array([1.0, 1.1]), np.array([0.1, 2.0])
-    told = doubts.doubt_of(gives_way.selected, number, PathAgreement(*alone))
+    told = doubts.doubt_of(gives_way.selected, number, PathAgreement(*alone), ())
     assert told.startswith("Undetermined: no two paths tell its size by themselves.")
-    assert "no two fifths of the motion" in doubts.doubt_of(gives_way.selected, number, PathAgreement(*alone, False))
+    assert "no two fifths of the motion" in doubts.doubt_of(
+        gives_way.selected, number, PathAgreement(*alone, False), ()
+    )
     assert NOISE.blocks_of_time == 5  # fifths
     in_one_run = PathAgreement(*alone, True, ("path 2",))
-    assert doubts.doubt_of(gives_way.selected, number, in_one_run) == ""
+    assert doubts.doubt_of(gives_way.selected, number, in_one_run, ()) == ""
     assert in_one_run.words == "it is there in run path 2 only: no other path tells its size"
+
+
+def test_a_size_that_may_as_well_be_nothing_is_doubtful(gives_way: MotionDiagnosis) -> None:
+    """A delay of -0.79 ms, known to 0.91, was told as a fifth of what a drive leaves, and nothing spoke against it."""
+    late = Parameter("delay", "ms", -0.79, 0.46)
+    told = doubts.doubt_of(gives_way.selected, number_of(gives_way), NOTHING, (late,))
+    assert told.startswith("Its 95 % interval holds zero")
+    assert not doubts.may_be_nothing((late, Parameter("offset", "N m", 2.0, 0.1)))
+    assert not doubts.may_be_nothing((Parameter("speed", "rad/s", 0.1, float("nan")),))
 
 
 def test_a_size_that_differs_is_doubtful_and_one_that_agrees_is_not(gives_way: MotionDiagnosis) -> None:
     number = number_of(gives_way)
     differs = PathAgreement(np.array([2.0, -0.5]), np.array([0.05, 0.05]))
-    assert "differs from path to path" in doubts.doubt_of(gives_way.selected, number, differs)
-    assert doubts.doubt_of(gives_way.selected, number, NOTHING) == ""
+    assert "differs from path to path" in doubts.doubt_of(gives_way.selected, number, differs, ())
+    assert doubts.doubt_of(gives_way.selected, number, NOTHING, ()) == ""
     assert gives_way.verdict.effects[0].doubt == ""
     assert "in doubt" not in gives_way.verdict.headline
 
@@ -59,7 +71,7 @@ def test_a_link_that_would_swing_slowly_is_doubtful(
     gives_way: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(doubts, "swing_hz", lambda *_: 3.21)
-    told = doubts.doubt_of(gives_way.selected, number_of(gives_way), NOTHING)
+    told = doubts.doubt_of(gives_way.selected, number_of(gives_way), NOTHING, ())
     assert "would swing on it at 3.2 Hz" in told
 
 

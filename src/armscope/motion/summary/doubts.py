@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from armscope.core.types import Array
@@ -11,15 +13,17 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.robot.dynamics import MovingArm
+from armscope.verdict.effects import INTERVAL, Parameter
 
 
-def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement) -> str:
+def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement, parameters: Sequence[Parameter]) -> str:
     """What speaks against a chosen cause, or leaves it open, in a sentence or two.
 
     Args:
         selected: the selection.
         number: of the cause.
         agreed: what different paths say of it.
+        parameters: its numbers, as they are told.
 
     Returns:
         The words; empty where nothing does.
@@ -33,7 +37,15 @@ def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement) -> st
             f"Undetermined: no two {parts} tell its size by themselves. It may stand for a share of something else; "
             "record another path before anything is changed for it."
         )
+    if may_be_nothing(parameters):
+        told.append("Its 95 % interval holds zero: which way it goes is open. Change nothing for it yet.")
     return " ".join([*told, *too_loose(swing_hz(selected, number))])
+
+
+def may_be_nothing(parameters: Sequence[Parameter]) -> bool:
+    """Whether the intervals of all numbers that were fitted hold zero."""
+    fitted = [each for each in parameters if np.isfinite(each.stderr)]
+    return bool(fitted) and all(abs(each.value) < INTERVAL * each.stderr for each in fitted)
 
 
 def too_loose(swing: float | None) -> list[str]:

@@ -70,7 +70,7 @@ def _found(
         physics=placed.cause.physics,
         confirm=placed.cause.confirm,
         cure=cure(placed, parameters, layout.arm),
-        doubt=doubt_of(selected, number, agreed),
+        doubt=doubt_of(selected, number, agreed, parameters),
     )
 
 
