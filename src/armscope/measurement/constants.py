@@ -53,6 +53,11 @@ class WeightRules(Constants):
         "judgement: the frames of the tools take up too much of what they tell",
         unit="rows",
     )
+    least_freedom: float = constant(
+        0.5,
+        "share of a channel's numbers that tell its noise, beside values of its own",
+        "derived: all rows have two numbers for each such value, some of the rows may have fewer",
+    )
 
 
 NOISE = NoiseRules()

@@ -67,7 +67,7 @@ class RowNoise:
         nominal = np.where(known, self.independence_weight, 0.0)
         weight = nominal.copy()
         weight[known] *= rule(residual[known], np.ones(int(known.sum())), channel.floor)
-        left = 1 - own_values / max(1, residual[known].size)
+        left = max(1 - own_values / max(1, residual[known].size), WEIGHTS.least_freedom)
         scale = 1e-3 * noise * np.sqrt(left) / robust.scale_of(residual[known], channel.floor)
         return ChannelWeights(channel, weight, nominal, scale=scale)
 
