@@ -114,6 +114,7 @@ def test_a_link_that_leads_nowhere_is_no_spelling_mistake(target, tmp_path):
         ("recordings.csv", "recordings.cvs", "recordings.csv"),
         ("recordings.csv", "recodings.csv", "recordings.csv"),
         ("other.txt", "recordings.csv", None),
+        (".recordings", "recordings.csv", None),
     ],
 )
 def test_a_file_that_is_not_there_is_likened_to_one_beside_it(there, asked, meant, tmp_path):

@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 from armscope.compensation.path import read_path
+from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import predict_file
+from armscope.core.inputs import InputError
 from armscope.physics.drift import Pause, base_shift, drift_with_pauses
 from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import save_model
+from armscope.physics.registry import library
 from armscope.physics.wander import wander
 from armscope.recordings import read_recordings
 from armscope.robot import forward_kinematics, load_arm
@@ -123,3 +126,24 @@ def test_a_path_is_of_now_whatever_its_ids_are(jumped, tmp_path):
     model = FittedModel(arm, {str(table.run[0]): Base(np.eye(3), np.zeros(3))}, parts=(shift,))
     moved = predict(model, path.table) - forward_kinematics(arm, table.motor_angles)
     np.testing.assert_allclose(moved * 1e3, np.tile(JUMP_MM, (60, 1)), atol=1e-6)
+
+
+def test_rows_without_a_payload_are_predicted_where_the_models_recordings_had_such_rows(tmp_path):
+    rows = read_recordings(EXAMPLE / "recordings.csv")
+    arm, payload = load_arm(EXAMPLE / "robot.yaml"), rows.payload.copy()
+    payload[:60] = np.nan
+    bare = replace(rows, payload=payload)
+    placed = next(p for p in library(arm, rows) if p.key == ("joint_compliance", "joint 2"))
+    values = np.full(len(placed.terms), 1e-7)
+    model = FittedModel(arm, {str(rows.run[0]): Base(np.eye(3), np.zeros(3))}, parts=(Part(placed, values),))
+    save_model(tmp_path / "model.yaml", model)
+    path = poses(tmp_path / "poses.csv", bare.rows(slice(60)), ids=False)
+    save_identified(tmp_path / FILE, identified_on(arm, rows))
+    with pytest.raises(InputError, match="no column payload_kg"):
+        predict_file(tmp_path / "model.yaml", path)
+    save_identified(tmp_path / FILE, identified_on(arm, bare))
+    found, notes = predict_file(tmp_path / "model.yaml", path)
+    assert any("60 rows state no payload_kg: the arm carries nothing" in note for note in notes)
+    empty = replace(rows, payload=np.zeros(len(rows))).rows(slice(60))
+    expected = predict(model, empty) * 1e3
+    np.testing.assert_allclose(found[["x_mm", "y_mm", "z_mm"]], expected, atol=1e-9)

@@ -176,6 +176,24 @@ def test_a_broken_gzip_file(tmp_path):
     for broken in (whole[:-20], whole[:30], whole[:5], whole[:40] + b"something else"):
         file.write_bytes(broken)
         assert "no readable file" in complaint(file)
+        assert "copy or download it again" in complaint(file)
+
+
+def test_a_gzip_file_of_another_method_says_what_to_do(tmp_path):
+    file, whole = tmp_path / "recordings.csv.gz", bytearray(gzip.compress(table(*ROWS).encode()))
+    whole[2] = 5  # the byte that names the method
+    file.write_bytes(bytes(whole))
+    assert "damaged (Unknown compression method): copy or download it again" in complaint(file)
+
+
+def test_joints_that_go_by_names_lead_to_a_drafted_mapping(tmp_path):
+    header = HEADER.replace("q1_rad", "shoulder_pan_joint").replace("q2_rad", "wrist_1_joint")
+    header = header.replace("q2_rad", "elbow_joint")
+    both = header.replace("wrist_1_joint", "elbow_joint")
+    for n_motors in (None, 2):
+        message = complaint(write(tmp_path, table(*ROWS, header=both)), n_motors=n_motors)
+        assert "`armscope init recordings.csv -o mapping.yaml`" in message
+        assert "motor 1" not in message
 
 
 def test_compression_is_told_by_the_content_whatever_the_name(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.recordings.resolution import FEWEST_VALUES, angle_steps
+from armscope.recordings.resolution import FEWEST_VALUES, angle_steps, step_in_words
 
 ANGLES = np.random.default_rng(1).uniform(-3, 3, (80, 2))
 
@@ -36,3 +36,9 @@ def test_one_odd_row_shows_that_nothing_was_rounded() -> None:
 def test_a_joint_that_hardly_moves_tells_nothing() -> None:
     few = np.resize(np.arange(FEWEST_VALUES - 1) * 0.1, (80, 1))
     assert angle_steps(few)[0] == 0
+
+
+@pytest.mark.parametrize("words", ["1 degrees", "0.001 degrees", "0.1 rad", "0.01 rad", "0.0001 rad"])
+def test_a_step_is_told_in_the_unit_that_it_was_written_in(words: str) -> None:
+    number, unit = words.split()
+    assert step_in_words(float(number) * (np.pi / 180 if unit == "degrees" else 1.0)) == words

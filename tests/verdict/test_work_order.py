@@ -19,7 +19,7 @@ from armscope.report.sections import locations
 from armscope.report.sections import work_order as section
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
-from armscope.verdict.corrections import corrected_rows, zero_offsets
+from armscope.verdict.corrections import as_entered, corrected_rows, zero_offsets
 from armscope.verdict.effects import Alternative, Cause, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.family_cures import cure_of_family
@@ -69,6 +69,9 @@ def test_a_zero_set_as_worded_takes_its_error_away(world: World, verdict) -> Non
     assert left == pytest.approx(task.alone_mm, rel=0.05, abs=2e-3)
     named = zero_offsets(verdict).set_index("joint")["actual_minus_commanded_deg"]
     assert named["joint 3"] == pytest.approx(stands_at, abs=1e-4)
+    entered = as_entered(zero_offsets(verdict)).set_index("joint").loc["joint 3"]
+    assert entered["actual_minus_commanded_deg"] == stands_at
+    assert f"{entered['actual_minus_commanded_mrad']:+} mrad".replace("-", "−") in task.instruction
 
 
 def test_a_corrected_row_in_the_controllers_model_explains_what_is_predicted(world: World, verdict) -> None:  # noqa: F811

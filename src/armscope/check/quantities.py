@@ -8,7 +8,7 @@ from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings import Recordings
-from armscope.recordings.resolution import angle_steps
+from armscope.recordings.resolution import angle_steps, step_in_words
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
 
@@ -54,7 +54,7 @@ def _coarse_angles(recordings: Recordings, arm: Arm) -> Suspicion | None:
         f"If poses were commanded in such steps, all is well; if they were rounded when they were written down, that "
         f"moves the tool by up to {most * 1e3:.2g} mm: record more digits."
     )
-    return Suspicion("hint", f"the angles stand in steps of {np.degrees(step):.3g} degrees", cure)
+    return Suspicion("hint", f"the angles stand in steps of {step_in_words(step)}", cure)
 
 
 def _temperature(recordings: Recordings) -> Suspicion | None:

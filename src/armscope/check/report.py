@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import Suspicion, verdict_lines
+from armscope.check.suspicion import GRAVITY, Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
@@ -90,10 +90,10 @@ def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
         arm: the robot it should belong to.
 
     Returns:
-        Its problems, and whether it is another model's.
+        Its problems, whether it is another model's, and whether gravity seems to point the other way.
     """
     found = (*against_arm(arm, recordings).suspicions, *_still(recordings), *of_quantities(recordings, arm))
-    return tuple(each for each in found if each.weight == "problem" or each.kind == ANOTHER_MODEL)
+    return tuple(each for each in found if each.weight == "problem" or each.kind in (ANOTHER_MODEL, GRAVITY))
 
 
 def _still(recordings: Recordings) -> tuple[Suspicion, ...]:

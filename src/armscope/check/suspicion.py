@@ -8,6 +8,9 @@ from typing import Literal
 
 from armscope.core.inputs import InputError
 
+GRAVITY = "gravity"
+"""Kind of a suspicion about which way gravity is stated to point."""
+
 
 @dataclass(frozen=True)
 class Suspicion:

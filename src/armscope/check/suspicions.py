@@ -15,6 +15,7 @@ from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
 from armscope.check.common_mistakes import FITS, MOST_ROWS, MOST_STEPS, trials
+from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
 from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
@@ -89,7 +90,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
             arm, recordings, misfit
         )
     else:
-        found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit)
+        found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
         found += _exchanged_rows(arm, recordings)
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned

@@ -156,7 +156,9 @@ def _refuse_absent(paths: list[Path], hint: Any) -> None:
 
 def _named_like(path: Path) -> str:
     """What a file that is not there may be a misspelling of: packed, a file beside it, an arm of the library; or ""."""
-    beside = [each.name for each in path.parent.glob("*")] if path.parent.is_dir() else []
+    hidden = path.name.startswith(".")  # nobody means a hidden file by another name
+    there = path.parent.glob("*") if path.parent.is_dir() else ()
+    beside = [each.name for each in there if hidden or not each.name.startswith(".")]
     if f"{path.name}.gz" in beside:
         return f"{path}.gz"
     own = [name for name in beside if Path(name).suffix == path.suffix]

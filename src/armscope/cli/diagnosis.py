@@ -123,7 +123,7 @@ def diagnose(
             tell("drawing the report", 0.95)
             write_report(verdict, output)
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else ()
-    for notice in (*(each for each in verdict.notices if each.kind == "check"), *obstacle):
+    for notice in (*(each for each in verdict.notices if each.kind in ("check", "gravity")), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)
     if json:
         print_json(verdict.to_json())

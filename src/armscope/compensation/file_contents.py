@@ -58,6 +58,7 @@ class IdentifiedContent(Strict):
     format: Literal["armscope domain 1"]
     robot: Word
     payload_kg: tuple[Number, Number] | None
+    payload_left_out: bool = False
     time_s: tuple[float, float] | None
     torque_weights: tuple[Numbers, ...] | None
     domain: DomainContent

@@ -40,6 +40,7 @@ class Identified:
         payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
         time_s: first and last, where recorded.
         torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
+        payload_left_out: whether some rows stated no payload where others did: the model took it for none.
     """
 
     arm: str
@@ -47,6 +48,7 @@ class Identified:
     payload_kg: tuple[float, float] | None
     time_s: tuple[float, float] | None = None
     torque_weights: Array | None = None
+    payload_left_out: bool = False
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
@@ -64,6 +66,7 @@ class Identified:
             "format": FORMAT,
             "robot": self.arm,
             "payload_kg": None if self.payload_kg is None else list(self.payload_kg),
+            **({"payload_left_out": True} if self.payload_left_out else {}),
             "time_s": None if self.time_s is None else list(self.time_s),
             "torque_weights": None if self.torque_weights is None else self.torque_weights.tolist(),
             "domain": self.domain.to_dict(),
@@ -83,7 +86,9 @@ def identified_on(arm: Arm, recordings: Recordings) -> Identified:
         columns.append(np.where(np.isnan(temperature), np.nanmean(temperature), temperature)[:, None])
     weights = _torque_weights(arm, recordings)
     domain = Domain.of(np.concatenate(columns, axis=1), names, units)
-    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights)
+    empty = np.zeros(0) if recordings.payload is None else np.isnan(recordings.payload)
+    left_out = bool(empty.any() and not empty.all())
+    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights, left_out)
 
 
 def _span(values: Array | None) -> tuple[float, float] | None:
@@ -112,6 +117,7 @@ def load_identified(path: Path | str) -> Identified:
         content.payload_kg,
         content.time_s,
         None if weights is None else np.array(weights, dtype=float),
+        content.payload_left_out,
     )
 
 

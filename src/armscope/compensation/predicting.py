@@ -124,12 +124,18 @@ def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) 
         if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
             return [f"no payload_kg, and no {FILE} beside the model: the arm carries nothing"]
         return []
-    for column, missing in missing_context(fitted, load_identified(beside), rows).items():
+    identified, notes = load_identified(beside), []
+    for column, missing in missing_context(fitted, identified, rows).items():
+        if column == "payload_kg" and identified.payload_left_out:
+            notes.append(
+                f"{missing.sum()} rows state no {column}: the arm carries nothing, as in the model's recordings"
+            )
+            continue
         place = "line 1" if missing.all() else f"row {int(np.argmax(missing)) + 2}, column {column}"
         cure = "Write 0 where the arm carries nothing." if column == "payload_kg" else "Add it to the table."
         rule = "an effect in the model follows it, so it must be known in every row"
         raise InputError(rows.source, place, f"no column {column}" if missing.all() else "nothing", rule, cure)
-    return []
+    return notes
 
 
 def _by_description(robot: Path, poses: Path, pose: bool) -> Found:

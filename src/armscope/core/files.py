@@ -21,7 +21,7 @@ import numpy as np
 import yaml
 
 from armscope.core import outputs
-from armscope.core.inputs import InputError, nearest, note_read
+from armscope.core.inputs import InputError, nearest, note_read, why_unreadable
 from armscope.core.locks import alive
 from armscope.core.parallel import piece_by_piece
 from armscope.core.streams import copy_into, is_stream
@@ -80,7 +80,7 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
     except OSError as error:
         raise _unreadable(path, what, error) from error
     except (ValueError, EOFError, zlib.error, OverflowError) as error:
-        raise InputError(path, "", "no table", f"{what} is needed here", f"{error}") from error
+        raise InputError(path, "", "no table", f"{what} is needed here", why_unreadable(error)) from error
     for column in columns:
         if column not in table:
             raise InputError(
@@ -110,7 +110,7 @@ def read_json(path: Path | str, what: str) -> Any:
     except RecursionError as error:
         raise InputError(path, "", "no readable JSON", f"{what} is needed here", "It is nested too deeply.") from error
     except (ValueError, EOFError, zlib.error) as error:
-        raise InputError(path, "", "no readable JSON", f"{what} is needed here", str(error)) from error
+        raise InputError(path, "", "no readable JSON", f"{what} is needed here", why_unreadable(error)) from error
 
 
 def _unpacked(path: Path, content: bytes, what: str) -> bytes:
@@ -142,7 +142,7 @@ def _whole(text: str) -> int:
 
 
 def _unreadable(path: Path | str, what: str, error: OSError) -> InputError:
-    return InputError(path, "", "no readable file", f"{what} is needed here", error.strerror or str(error))
+    return InputError(path, "", "no readable file", f"{what} is needed here", why_unreadable(error))
 
 
 @contextlib.contextmanager

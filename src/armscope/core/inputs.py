@@ -71,6 +71,17 @@ def _quote(value: object) -> str:
     return text if len(text) <= 120 else text[:117] + "..."
 
 
+def why_unreadable(error: Exception) -> str:
+    """What ails a file that could not be read, unpacked or understood, and what to do about it."""
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    if isinstance(error, ValueError | OverflowError):
+        return str(error)
+    if isinstance(error, EOFError):
+        return "Its gzipped content was cut off: copy or download it again."
+    return f"Its gzipped content is damaged ({error}): copy or download it again."
+
+
 LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
 """Beyond these a name is no slip of the pen, and likeness takes too long to measure."""
 

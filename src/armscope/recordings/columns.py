@@ -167,6 +167,10 @@ def counted_from_zero(headers: Iterable[str]) -> str:
     return f"Motors are counted from 1, nearest the base: call {zero} q1{zero[2:]}, and so on." if zero else ""
 
 
+_BY_NAME = re.compile("joint|shoulder|elbow|wrist")
+"""What joints are called where they have names for numbers: in URDFs, and in the logs of what reads these."""
+
+
 class Names:
     """The columns that a table has, by its first line.
 
@@ -209,7 +213,7 @@ class Names:
                 fewer = sorted(found) == list(range(1, motor))
                 cure = f"The table has {motor - 1} motor angles: is this the right robot for the recordings?"
                 cure = cure if fewer and motor > 1 else nearest(f"q{motor}_rad", self.columns)
-                cure = counted_from_zero(self.columns) or cure
+                cure = counted_from_zero(self.columns) or (cure if found else self._how_to_name_angles())
                 raise self._error(f"no column q{motor}_rad", f"the arm has motors q1 ... q{count}", cure)
         if max(found) > count:
             cure = "Is this the right robot for the recordings?"
@@ -228,6 +232,10 @@ class Names:
 
     def _how_to_name_angles(self) -> str:
         """What to do about a table of whose columns none is called as a motor's angle."""
+        by_name = [name for name in self.columns if _BY_NAME.search(name.lower()) and not re.search(r"\d", name)]
+        if len(by_name) > 1:
+            how = f"`armscope init {Path(self.source).name} -o mapping.yaml` drafts how to read it"
+            return f"Its joints go by names, such as {by_name[0].strip()!r}: {how}."
         numbered = [name for name in self.columns if re.fullmatch(r"\s*[A-Za-z]\w*?_?1(?!\d).*", name)]
         like_q1 = [name for name in numbered if not re.match(r"\s*(tau|current|d+q|f|approach)_?1", name.lower())]
         if not like_q1:

@@ -9,7 +9,7 @@ import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.core.inputs import InputError, note_read
+from armscope.core.inputs import InputError, note_read, why_unreadable
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -42,8 +42,7 @@ def start_of(path: Path, what: str) -> bytes:
             with gzip.open(path) as packed:
                 start = packed.read(LONGEST_SIGNATURE)
     except (OSError, EOFError, zlib.error) as error:
-        cure = getattr(error, "strerror", None) or str(error)
-        raise InputError(path, "", "no readable file", f"{what} is needed here", cure) from error
+        raise InputError(path, "", "no readable file", f"{what} is needed here", why_unreadable(error)) from error
     return start
 
 

@@ -30,6 +30,14 @@ def angle_steps(motor_angles: Array) -> Array:
     return np.array([_step(np.unique(of_motor)) for of_motor in motor_angles.T])
 
 
+def step_in_words(step: float) -> str:
+    """A step (rad) in the unit that it is a decimal of, as the table was written: "0.1 degrees", "0.01 rad"."""
+    in_radians = round(np.log10(step))
+    if abs(step / 10.0**in_radians - 1) < OF_A_STEP:
+        return f"{10.0**in_radians:g} rad"
+    return f"{np.degrees(step):.3g} degrees"
+
+
 def _step(values: Array) -> float:
     if len(values) < FEWEST_VALUES:
         return 0.0

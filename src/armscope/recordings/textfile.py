@@ -11,7 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from armscope.core.inputs import InputError
+from armscope.core.inputs import InputError, why_unreadable
 from armscope.core.parallel import each_piece
 from armscope.core.plainyaml import CONTROL
 from armscope.recordings.opening import GZIP, open_text, refuse_other_than_text, start_of, undecodable
@@ -121,8 +121,8 @@ def _shape(path: Path) -> tuple[list[str] | None, list[int], list[Piece]]:
         place, found = undecodable(path, "utf-8", error)
         raise InputError(path, place, found, "tables are UTF-8 text", "Save it as UTF-8.") from error
     except (OSError, EOFError, zlib.error) as error:
-        cure = getattr(error, "strerror", None) or str(error)
-        raise InputError(path, "", "no readable file", "a recordings table (CSV) is needed here", cure) from error
+        rule = "a recordings table (CSV) is needed here"
+        raise InputError(path, "", "no readable file", rule, why_unreadable(error)) from error
     except csv.Error as error:
         place = f"line {rows.line_num}" if rows else ""
         cure = "Is there a quotation mark that is never closed?"

@@ -39,6 +39,17 @@ def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
+def as_entered(zeros: pd.DataFrame) -> pd.DataFrame:
+    """The table of `zero_offsets` with the digits of the work order: none beyond what their intervals leave."""
+    halves = zeros["half_interval_95_mrad"].tolist()
+    mrad = [entry_decimals("mrad", half / INTERVAL) for half in halves]
+    degrees = [entry_decimals("°", math.degrees(1e-3 * half / INTERVAL)) for half in halves]
+    rounded = zeros.copy()
+    for column, decimals in zip(zeros.columns[1:4], (degrees, mrad, mrad), strict=True):
+        rounded[column] = [round(value, digits) for value, digits in zip(zeros[column].tolist(), decimals, strict=True)]
+    return rounded
+
+
 def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     """The D-H rows as stated and as found, mm and degrees, without the zeros; None for an arm that has no D-H rows."""
     dh = verdict.model.arm.description.dh

@@ -6,6 +6,7 @@ import numpy as np
 
 from armscope.diagnosis.state import DiagnosisState
 from armscope.fitting.joint_scatter import Scattered, motor_jacobians
+from armscope.recordings.resolution import step_in_words
 from armscope.verdict.schema import Notice
 
 
@@ -30,9 +31,9 @@ def told_of_rounding(state: DiagnosisState, tool_mm: float) -> list[Notice]:
     """
     if not (rounded := _rounded(state)):
         return []
-    steps = sorted({round(float(np.degrees(each.size * np.sqrt(12))), 9) for each in rounded})
+    steps = [step_in_words(step) for step in sorted({round(float(each.size * np.sqrt(12)), 12) for each in rounded})]
     text = (
-        f"The angles in this table were rounded, to steps of {' and '.join(f'{step:.3g}' for step in steps)} degrees: "
+        f"The angles in this table were rounded, to steps of {' and '.join(steps)}: "
         f"that alone moves the tool by {tool_mm:.2g} mm per axis, which counts as noise, not as a fault of the arm. "
         "Record more digits, and smaller errors can be seen."
     )

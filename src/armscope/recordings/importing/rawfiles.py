@@ -13,7 +13,7 @@ import numpy as np
 import scipy.io
 from scipy.io.matlab import MatReadError
 
-from armscope.core.inputs import InputError, nearest
+from armscope.core.inputs import InputError, nearest, why_unreadable
 from armscope.recordings.importing.formats import Format, MatlabFormat, TextFormat
 from armscope.recordings.importing.rawrows import MatrixRows, RawRows, TextRows
 from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
@@ -57,7 +57,8 @@ def _read_text(path: Path, style: TextFormat, notes: Counter[str]) -> Iterator[T
         rule = f"the text is not {style.encoding.removesuffix('-sig')}"
         raise InputError(path, place, found, rule, "Declare `encoding` in the mapping, e.g. latin-1.") from error
     except (OSError, EOFError, zlib.error) as error:
-        raise InputError(path, "", str(error), "this must be delimited text, plain or gzipped") from error
+        rule = "this must be delimited text, plain or gzipped"
+        raise InputError(path, "", "no readable file", rule, why_unreadable(error)) from error
 
 
 def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:

@@ -19,7 +19,7 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.controllers import ur_kinematics
-from armscope.verdict.corrections import corrected_cells, corrected_origins, corrected_rows, zero_offsets
+from armscope.verdict.corrections import as_entered, corrected_cells, corrected_origins, corrected_rows, zero_offsets
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
@@ -33,7 +33,7 @@ ANSWERS = {
     "partly explained": ("depends", "partly explained"),
     "cannot tell": ("depends", "cannot tell"),
 }
-WARNINGS = ("check", "stated noise", "fewer rows than parameters", "too few rows")
+WARNINGS = ("check", "gravity", "stated noise", "fewer rows than parameters", "too few rows")
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (
     "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
@@ -57,7 +57,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
     """The work order as a page, and its numbers as tables."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
-    write_table(folder / ZEROS, zeros)
+    write_table(folder / ZEROS, as_entered(zeros))
     for name, table in ((ROWS, rows), (ORIGINS, corrected_origins(verdict))):
         if table is not None:
             write_table(folder / name, table)

@@ -1,0 +1,36 @@
+"""Gravity stated the wrong way round is seen where joints give way under it, and never where it is stated right."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from armscope.check.report import check, what_forbids
+from armscope.check.suspicion import GRAVITY
+from armscope.recordings import read_recordings
+from armscope.robot import load_arm
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def told(example: str, turned: bool) -> list[str]:
+    arm = load_arm(EXAMPLES / example / "robot.yaml")
+    table = read_recordings(EXAMPLES / example / "recordings.csv", arm.n_motors)
+    arm = replace(arm, gravity=-arm.gravity) if turned else arm
+    found = [each for each in check(table, arm).suspicions if each.kind == GRAVITY]
+    assert found == [each for each in what_forbids(table, arm) if each.kind == GRAVITY]
+    assert all(each.weight == "hint" for each in found)
+    return [each.text() for each in found]
+
+
+@pytest.mark.parametrize("example", ["one-effect", "five-effects", "seven-axes-modified-dh"])
+def test_gravity_that_points_up_is_told_where_joints_give_way(example: str) -> None:
+    (text,) = told(example, turned=True)
+    assert "turned around" in text
+    assert "[0, 0, 9.81] for one that hangs" in text
+    assert told(example, turned=False) == []
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_stiff_arm_tells_no_direction(turned: bool) -> None:
+    assert told("clean", turned) == []
