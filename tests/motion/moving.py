@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -78,6 +79,15 @@ def table(
 def moved(arm: MovingArm, seed: int, plant: Plant | None = None, **how: float) -> Motions:
     """The same as `Motions`."""
     return as_motions(table(arm, seed, plant, **how), "motions.csv", arm.n_motors)  # type: ignore[arg-type]
+
+
+def carrying(seed: int, mass: float) -> Motions:
+    """Three runs, in the second of which that many kg sit at the last link's centre of mass."""
+    *others, last = ROBOT["links"]  # type: ignore[misc]
+    heavier = robot(links=[*others, {**last, "mass_kg": last["mass_kg"] + mass}])
+    without, loaded = (moved(arm, seed, runs=3) for arm in (robot(), heavier))
+    there = (without.run == without.runs[1])[:, None]
+    return replace(without, effort=np.where(there, loaded.effort, without.effort))
 
 
 def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:

@@ -9,13 +9,17 @@ import pytest
 from scipy.signal import lfilter
 
 from armscope.core.types import Array
+from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.rows import MotionRows, build_rows
+from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.weights import autocorrelation_time, noise_of
 from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
-from tests.motion.moving import moved, robot
+from tests.motion.moving import carrying, moved, robot
 
 ROWS, NUMBERS, BLOCKS = 240, 80, 5
 
@@ -68,3 +72,25 @@ def test_noise_that_lasts_still_lasts_where_columns_that_last_took_it_up() -> No
     truth = (1 + kept) / (1 - kept)
     assert fitted < 0.55 * truth
     assert abs(both - truth) < 0.8 * abs(fitted - truth)
+
+
+def test_noise_is_never_less_than_what_the_fit_leaves() -> None:
+    """Where the other blocks say the opposite of a motion, what both leave has a product below zero."""
+    rng = np.random.default_rng(7)
+    rows = rows_of(ROWS)
+    left = rng.normal(size=rows.torque.shape)
+    found = noise_of(rows, left, np.ones_like(left), -3 * left)
+    assert found.sigma == pytest.approx(np.sqrt(np.mean(left**2, axis=0)))
+    assert found.correlated == pytest.approx(noise_of(rows, left, np.ones_like(left)).correlated)
+
+
+def test_a_load_of_one_run_is_no_noise_of_that_run() -> None:
+    arm, recorded = robot(), carrying(6, 4.0)
+    train = list(stretches(recorded))
+    how, first = chosen_cutoff(arm, train, 10.0)
+    layout = TorqueLayout(arm, tuple(place_causes(seen_in(arm, train, 0.02))), False)
+    selected = select_causes(layout, train, how, recorded.runs, lambda text, share: None, first.model)
+    assert [selected.rows.layout.placed[number].runs for number in selected.best.candidates] == [recorded.runs[1:2]]
+    moving = ~selected.rows.still
+    left = [np.sqrt(np.mean(own[there] ** 2)) for own, there in zip(selected.residuals.T, moving.T, strict=True)]
+    assert selected.noise.sigma == pytest.approx(left, rel=0.1)

@@ -1,9 +1,14 @@
 """Names that the evidence asks for and that still can't stand."""
 
+import dataclasses
+import itertools
+from typing import Any
+
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.inference.search import Search
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import select_causes
@@ -11,7 +16,8 @@ from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.samples.timing import stretches
-from armscope.motion.summary.tenable import tenable
+from armscope.motion.summary import tenable as judging
+from armscope.motion.summary.tenable import held_out_gains, tenable
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 STATED = [
@@ -42,3 +48,24 @@ def test_friction_below_zero_is_no_friction(selected: SelectedCauses) -> None:
     assert ("coulomb_friction", "joint 2") in names(selected)
     assert ("coulomb_friction", "joint 2") not in names(tenable(selected, 200.0))
     assert ("unknown", "joint 2") in names(tenable(selected, 200.0))
+
+
+def test_what_comes_in_place_of_a_struck_name_foretells_motion(
+    selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However long evidence goes on to name what no other path shows."""
+    useless = itertools.cycle(n for n, cause in enumerate(selected.rows.layout.placed) if cause.location == "joint 3")
+    usual = judging.chosen
+
+    def with_another(*asked: Any) -> SelectedCauses:
+        found = usual(*asked)
+        search = Search.on(found.problem)
+        while (number := next(useless)) in found.best.candidates:
+            pass
+        more = dataclasses.replace(found.best.chosen[0], candidate=number)
+        worse = search.evaluated([*found.best.chosen, more], found.best)
+        return dataclasses.replace(found, best=worse)
+
+    monkeypatch.setattr(judging, "chosen", with_another)
+    found = tenable(selected, 200.0)
+    assert all(gain > 0 for gain in held_out_gains(found).values())

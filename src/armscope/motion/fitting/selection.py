@@ -16,6 +16,7 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.refining import refined
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
@@ -50,14 +51,6 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
     return SoFar(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
-
-
-def gain_of(layout: TorqueLayout, coefficients: Array) -> Array:
-    """(m,) times the true torque that is recorded of each joint."""
-    gain = np.ones(layout.arm.n_motors)
-    for joint, column in layout.scaling:
-        gain[joint] += coefficients[column]
-    return np.clip(gain, 1 / PRIOR.largest_gain, PRIOR.largest_gain)
 
 
 def select_causes(
@@ -109,11 +102,10 @@ def select_causes(
 def at_own_gain(selected: SelectedCauses) -> SelectedCauses:
     """The same causes, with what is true torque recorded by the gains that are fitted."""
     for _ in range(NOISE.refinings):
-        rows = selected.rows
-        gain = gain_of(rows.layout, selected.coefficients)
-        if np.allclose(gain, rows.gain, rtol=0.0, atol=NOISE.same_gain):
+        gain = meeting_gain(selected)
+        if np.allclose(gain, selected.rows.gain, rtol=0.0, atol=NOISE.same_gain):
             break
-        selected = weighed_anew(replace(rows, gain=gain), selected)
+        selected = weighed_anew(replace(selected.rows, gain=gain), selected)
     return selected
 
 

@@ -62,7 +62,8 @@ def noise_of(rows: MotionRows, residuals: Array, row: Array, elsewhere: Array | 
 
     A fit takes part of the noise up, and of noise that lasts most of all: it leaves (I - H) e of a block's noise e,
     while numbers from the other blocks leave (I - H)^-1 of that. So the product of both has the noise's own power,
-    e' e, in the mean.
+    e' e, in the mean. It is never less than what the fit leaves: where the product is, the other blocks do not
+    foretell this motion, and what the fit leaves counts alone.
 
     Args:
         rows: K rows.
@@ -73,18 +74,22 @@ def noise_of(rows: MotionRows, residuals: Array, row: Array, elsewhere: Array | 
     Returns:
         The weights.
     """
-    other, root = residuals if elsewhere is None else elsewhere, np.sqrt(row)
-    power = np.sum(row * residuals * other, axis=0) / np.maximum(row.sum(axis=0), 1.0)
+    count, root = np.maximum(row.sum(axis=0), 1.0), np.sqrt(row)
+    least = np.sum(row * residuals**2, axis=0) / count
+    product = least if elsewhere is None else np.sum(row * residuals * elsewhere, axis=0) / count
+    power = np.maximum(product, least)
+    other = residuals if elsewhere is None else np.where(product > least, elsewhere, residuals)
     pairs = zip((root * residuals).T, (root * other).T, strict=True)
     correlated = [autocorrelation_time(rows.stretch, *pair) for pair in pairs]
-    sigma = np.sqrt(np.maximum(power, 0.0))
-    return TorqueWeights(np.maximum(sigma, _least(rows)), np.array(correlated), row)
+    return TorqueWeights(np.maximum(np.sqrt(power), _least(rows)), np.array(correlated), row)
 
 
 def left_elsewhere(
     rows: MotionRows, block: Indices, blocks: Mapping[int, NormalEquations], problem: Problem, best: Hypothesis
 ) -> Array:
     """What a hypothesis leaves of each block by numbers from the others.
+
+    A number that no other block knows, such as a run's own load, stays as it is: without it the load would be noise.
 
     Args:
         rows: K rows.
@@ -96,12 +101,14 @@ def left_elsewhere(
     Returns:
         (K, m) N m; what is measured beyond the nominal torque where there is no block or no other.
     """
-    left = rows.torque - rows.nominal
+    left, known = rows.torque - rows.nominal, best.coefficients(len(problem.scale))
     for number in blocks if len(blocks) > 1 else ():
-        rest = problem.with_equations(total([own for other, own in blocks.items() if other != number]))
-        fitted = evaluate(rest, best.chosen, best.background, best.noise)
+        rest = total([own for other, own in blocks.items() if other != number])
+        fitted = evaluate(problem.with_equations(rest), best.chosen, best.background, best.noise)
+        told = np.diag(rest.G) > FILTER.rounding * np.diag(problem.equations.G) * problem.scale**2
         which = np.flatnonzero(block == number)
-        left[which] -= rows.modelled(fitted.coefficients(len(problem.scale)) / problem.scale, which)
+        found = np.where(told, fitted.coefficients(len(problem.scale)), known)
+        left[which] -= rows.modelled(found / problem.scale, which)
     return rows.without_pauses(left)
 
 

@@ -14,9 +14,9 @@ from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
+from armscope.motion.fitting.gains import gain_of
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
-from armscope.motion.fitting.selection import gain_of
 from armscope.motion.fitting.weights import noise_of, weighed
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.verdict import HeldOutMotion, Step, relative

@@ -7,14 +7,16 @@ has, by taking each other's torque back, or on one path only; each of these show
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.types import Array
 from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.normal_equations import total
+from armscope.inference.problem import SelectedEffect
+from armscope.inference.search import Search
 from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import Weighed, agreement
 from armscope.motion.fitting.refining import carried_in, is_anywhere
@@ -28,7 +30,7 @@ from armscope.motion.summary.doubts import motion_hz, swing_hz
 
 
 def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
-    """The selection without names that can't stand; what takes their place is weighed anew, and judged alike.
+    """The selection without names that can't stand; what takes their place is judged alike, and must foretell motion.
 
     Args:
         selected: what the evidence asks for.
@@ -39,7 +41,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """
     barred: frozenset[int] = frozenset()
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
-    for _ in range(CONSISTENCY.judged):
+    for number in itertools.count():  # ends: from some round on names only go
         wrong = frozenset({*_impossible(selected), *_cancelling(selected), *_of_one_path(selected)})
         if not wrong:
             break
@@ -47,8 +49,23 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         space = build_space(selected.rows.layout, torque, rate, barred)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
         again = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
-        selected = at_own_gain(again)
+        alone = _alone(again, kept)
+        others = number + 1 < CONSISTENCY.judged and _foretells_more(again, alone.best)
+        selected = at_own_gain(again if others else alone)
     return selected
+
+
+def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
+    """What was kept, with nothing in the place of what was struck out."""
+    search = Search.on(selected.problem)
+    return replace(selected, best=search.with_best_sizes(search.evaluated(kept, selected.best)))
+
+
+def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:
+    """Whether a selection meets the middle one of the blocks that took no part better than another hypothesis does."""
+    hypotheses = (selected.best, replace(alone, noise=selected.best.noise))
+    found, other = (_misfits(selected, best, best.chosen) for best in hypotheses)
+    return bool(np.median(other - found) > 0)
 
 
 def _impossible(selected: SelectedCauses) -> Iterator[int]:
@@ -127,11 +144,19 @@ def _torque(selected: SelectedCauses, number: int) -> Array:
 
 
 def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
-    """Whose size differs from path to path, or that makes the motion of paths that took no part no better known."""
-    gains = held_out_gains(selected)
-    for number in selected.best.candidates:
-        if agreement(selected, number).consistent is False or gains[number] <= 0:
-            yield number
+    """Whose size differs from path to path, or that makes the motion of paths that took no part no better known.
+
+    Of several of the latter kind only the least goes where all together foretell something: one may say what another
+    does.
+    """
+    best, gains = selected.best, held_out_gains(selected)
+    yield from (number for number in best.candidates if agreement(selected, number).consistent is False)
+    useless = [number for number in best.candidates if gains[number] <= 0]
+    if not useless:
+        return
+    kept = tuple(effect for effect in best.chosen if effect.candidate not in useless)
+    lost = float(np.median(_misfits(selected, best, kept) - _misfits(selected, best, best.chosen)))
+    yield from useless if lost <= 0 else [min(useless, key=gains.__getitem__)]
 
 
 def held_out_gains(selected: Weighed) -> dict[int, float]:
@@ -145,20 +170,22 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
     Returns:
         By number of each chosen cause.
     """
-    best = selected.best
-    gains: dict[int, list[float]] = {number: [] for number in best.candidates}
+    best, gains = selected.best, {}
+    whole = _misfits(selected, best, best.chosen)
+    for number in best.candidates:
+        kept = tuple(effect for effect in best.chosen if effect.candidate != number)
+        gains[number] = float(np.median(_misfits(selected, best, kept) - whole))
+    return gains
+
+
+def _misfits(selected: Weighed, best: Hypothesis, effects: tuple[SelectedEffect, ...]) -> Array:
+    """(blocks,) nats that effects, fitted to the other blocks, leave of each, beside those of nothing at all."""
+    nats = []
     for held, block in enumerate(selected.blocks):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        problem, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
-        whole = _misfit(problem, apart, best, best.chosen)
-        for number in gains:
-            kept = tuple(effect for effect in best.chosen if effect.candidate != number)
-            gains[number].append((_misfit(problem, apart, best, kept) - whole) / (2 * best.noise**2))
-    return {number: float(np.median(each)) for number, each in gains.items()}
-
-
-def _misfit(problem: Problem, apart: NormalEquations, best: Hypothesis, effects: tuple[SelectedEffect, ...]) -> float:
-    """Squares that effects, fitted elsewhere, leave of a block, less its own."""
-    fitted = evaluate(problem, effects, best.background, best.noise)
-    at = fitted.columns
-    return float(fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean)
+        apart = block.scaled(selected.problem.scale)
+        fitted = evaluate(selected.problem.with_equations(rest), effects, best.background, best.noise)
+        at = fitted.columns
+        squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
+        nats.append(float(squares) / (2 * best.noise**2))
+    return np.array(nats)

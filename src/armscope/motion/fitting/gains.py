@@ -1,0 +1,58 @@
+"""Gains at which columns and fit meet: by how much more of each joint's torque is recorded than there is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.motion.constants import PRIOR
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.weights import weighed
+from armscope.motion.library.layout import TorqueLayout
+
+
+def gain_of(layout: TorqueLayout, coefficients: Array) -> Array:
+    """(m,) times the true torque that is recorded of each joint."""
+    gain = np.ones(layout.arm.n_motors)
+    for joint, column in layout.scaling:
+        gain[joint] += coefficients[column]
+    return _that_a_drive_has(gain)
+
+
+def meeting_gain(selected: SelectedCauses) -> Array:
+    """(m,) at which the gain that columns are recorded by is the one that is fitted to them (Newton).
+
+    Taking the fitted gain as it is swings ever farther where it falls by more than the columns' rises: where most of
+    the true torque is no stated one, a load's or a delay's, a gain a little too large asks for one much too small.
+    """
+    rows = selected.rows
+    fitted = gain_of(rows.layout, selected.coefficients)
+    slopes = np.eye(len(fitted)) - _slopes(selected)
+    return _that_a_drive_has(rows.gain + np.linalg.solve(slopes, fitted - rows.gain))
+
+
+def _slopes(selected: SelectedCauses) -> Array:
+    """(m, m) by how much each joint's fitted gain changes with the one that a joint's columns are recorded by.
+
+    More of the true torque T of a joint in its columns is less of it left to fit: the fit moves by
+    (X' X + prior)^-1 (T' residual - X' T c) per share.
+    """
+    rows, best, scale = selected.rows, selected.best, selected.problem.scale
+    layout, found = rows.layout, np.zeros((len(rows.gain),) * 2)
+    scaling = [(joint, column) for joint, column in layout.scaling if column in best.columns]
+    if not scaling:
+        return found
+    true = ~np.isin(best.columns, layout.of_readings)
+    parts = [part for block in selected.by_joint for part in block]
+    for joint in sorted({joint for joint, _ in scaling}):
+        sums = weighed(rows, [part for part in parts if part.joint == joint], selected.weights).scaled(scale)
+        G, b = sums.G[np.ix_(best.columns, best.columns)], sums.b[best.columns]
+        pull = true * (b - G @ best.mean) - G @ (true * best.mean)
+        moved = best.inverse.T @ (best.inverse @ pull) / rows.gain[joint] / scale[best.columns]
+        for other, column in scaling:
+            found[other, joint] += moved[best.at(np.array([column]))[0]]
+    return found
+
+
+def _that_a_drive_has(gain: Array) -> Array:
+    return np.clip(gain, 1 / PRIOR.largest_gain, PRIOR.largest_gain)
