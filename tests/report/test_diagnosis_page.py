@@ -8,6 +8,7 @@ import pytest
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.assumptions import assumptions
 from armscope.report.sections.registry import SECTIONS
+from armscope.verdict.schema import WaterfallStep
 from armscope.verdict.sentences import headline
 from tests.report import verdicts
 from tests.report.verdicts import CASES
@@ -236,6 +237,18 @@ def test_errors_are_promised_for_other_rows_only_where_these_confirm_the_model(t
         assert ("Errors are those to expect on new poses" in report.read_text()) == confirmed
         assert ("on poses that took no part in the fit" in report.with_name("work-order.html").read_text()) == confirmed
         assert ('class="tag holds"' in report.read_text().split("<body>")[1]) == confirmed
+
+
+def test_what_is_expected_of_a_step_is_as_sure_as_parts_of_the_rows_are_alike(tmp_path):
+    for spread, told in ((0.325, True), (float("nan"), False)):
+        steps = (WaterfallStep("free frames", 1.25, 1.3, spread),)
+        case = verdicts.case(
+            effects=(verdicts.compliance(),), held_out=verdicts.HeldOut(1.3, 0.1, folds=5), waterfall=steps
+        )
+        report = write_report(case.verdict, tmp_path / str(told))
+        for page in (report, report.with_name("work-order.html")):
+            text = page.read_text().replace("\u00a0", " ")
+            assert ("on the 5 parts held out by turns was 1.3 mm ± 25 %" in text) == told
 
 
 def test_a_value_beyond_what_arms_have_is_not_printed(tmp_path):

@@ -23,6 +23,7 @@ from armscope.verdict.corrections import as_entered, corrected_cells, corrected_
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
+from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent
@@ -71,6 +72,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "left": min((task.then_mm for task in subject.order.tasks), default=rms(subject.worth.before)),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
+        "differ": from_part_to_part(verdict),
         "background": percent(verdict.background.share),
         "dh": corrected_cells(verdict),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),

@@ -8,6 +8,7 @@ from typing import Any
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.sentences import holds
 from armscope.verdict.wording import millimetres
 
@@ -21,6 +22,7 @@ def _context(subject: Subject) -> dict[str, Any]:
         "shown": SHOWN if len(subject.order.tasks) > SHOWN + 1 else len(subject.order.tasks),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(subject.verdict.held_out.after) and holds(subject.verdict),
+        "differ": from_part_to_part(subject.verdict),
     }
 
 
