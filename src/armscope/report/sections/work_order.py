@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from armscope.core.averages import rms
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
@@ -23,6 +24,8 @@ def _context(subject: Subject) -> dict[str, Any]:
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(subject.verdict.held_out.after) and holds(subject.verdict),
         "differ": from_part_to_part(subject.verdict),
+        "folds": subject.verdict.held_out.folds,
+        "before": rms(subject.worth.before),
     }
 
 
