@@ -15,6 +15,7 @@ from armscope.inference.problem import SelectedEffect
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
 
+from ..backgrounds import sizes
 from .planted import planted
 
 ROWS = 100
@@ -25,7 +26,7 @@ def test_a_name_within_a_background_may_not_be_negative_where_it_gives_way(compl
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [compliance]}, ROWS, 0.02, seed=3)
     blocks = np.arange(ROWS) % 5
     loop = SelectionLoop(fit_frames(arm, table), table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, unheard)
-    loop.round([(0, 0, 0, 0, 0, 0)])
+    loop.round([sizes()])
     space = loop.space
     (number,) = [n for n, p in enumerate(space.placed) if p.key == ("joint_compliance", "joint 2") and not p.variant]
     name = SelectedEffect(number, 4, nested=True)

@@ -13,6 +13,7 @@ from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
 
+from ..backgrounds import sizes
 from .planted import planted
 
 
@@ -23,7 +24,7 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     off = replace(near, tools=tuple(replace(part, values=part.values + 5e-4) for part in near.tools))
     blocks = np.arange(100) % 5
     round_ = SelectionLoop(off, table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, lambda text, share: None)
-    round_.round([(0, 0, 0, 0, 0, 0)])
+    round_.round([sizes()])
     found = round_.selected()
     values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
     rows = LinearisedRows(found.point, table, found.fit.weights, found.space.layout)

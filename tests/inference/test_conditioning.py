@@ -23,6 +23,8 @@ from armscope.physics.frames import free_frames
 from armscope.physics.registry import library
 from tests.diagnosis.planted import planted
 
+from ..backgrounds import sizes
+
 ROWS, NOISE = 40, 0.2
 """The noise is held at this: far above what the data would say, so that it is the least that is allowed."""
 
@@ -45,7 +47,7 @@ def whole(problem: Problem, background: BackgroundSizes) -> Hypothesis:
     return hypothesis
 
 
-@pytest.mark.parametrize("background", [(0, 0, 0, 0, 0, 0), (4, 2, 1, 0, 0, 0)])
+@pytest.mark.parametrize("background", [sizes(), sizes(4, 2, 1)])
 @pytest.mark.parametrize("removed", [0, 1, 2])
 def test_a_removal_is_what_is_weighed_without_it(setting: Problem, background: BackgroundSizes, removed: int) -> None:
     """Alone or, where a background holds the same columns, with that."""
@@ -69,7 +71,7 @@ def test_a_removal_is_what_is_weighed_without_it(setting: Problem, background: B
 @pytest.mark.parametrize("size", [0, 2, 4])
 @pytest.mark.parametrize("number", [0, 2])
 def test_another_size_is_what_is_weighed_with_it(setting: Problem, number: int, size: int) -> None:
-    hypothesis = whole(setting, (2, 1, 0, 0, 0, 0))
+    hypothesis = whole(setting, sizes(2, 1))
     resized = replace(hypothesis.chosen[number], size=size)
     chosen = (*hypothesis.chosen[:number], resized, *hypothesis.chosen[number + 1 :])
     other = low_rank_update(setting, hypothesis, chosen, hypothesis.background)
@@ -79,9 +81,9 @@ def test_another_size_is_what_is_weighed_with_it(setting: Problem, number: int, 
     )
 
 
-@pytest.mark.parametrize("background", [(2, 0, 0, 0, 0, 0), (4, 1, 0, 0, 0, 0), (0, 1, 0, 0, 0, 0)])
+@pytest.mark.parametrize("background", [sizes(2), sizes(4, 1), sizes(0, 1)])
 def test_another_background_is_what_is_weighed_with_it(setting: Problem, background: BackgroundSizes) -> None:
-    hypothesis = whole(setting, (2, 1, 0, 0, 0, 0))
+    hypothesis = whole(setting, sizes(2, 1))
     other = low_rank_update(setting, hypothesis, hypothesis.chosen, background)
     assert other is not None
     assert other.log_posterior == pytest.approx(
@@ -90,7 +92,7 @@ def test_another_background_is_what_is_weighed_with_it(setting: Problem, backgro
 
 
 @pytest.mark.parametrize("number", range(4))
-@pytest.mark.parametrize("background", [(0, 0, 0, 0, 0, 0), (2, 1, 0, 0, 0, 0)])
+@pytest.mark.parametrize("background", [sizes(), sizes(2, 1)])
 def test_a_background_promises_what_is_weighed_with_it(
     setting: Problem, background: BackgroundSizes, number: int
 ) -> None:
@@ -105,12 +107,12 @@ def test_a_background_promises_what_is_weighed_with_it(
 
 
 def test_what_needs_further_columns_must_be_weighed(setting: Problem) -> None:
-    hypothesis = whole(setting, (0, 0, 0, 0, 0, 0))
-    assert low_rank_update(setting, hypothesis, hypothesis.chosen, (2, 0, 0, 0, 0, 0)) is None
+    hypothesis = whole(setting, sizes())
+    assert low_rank_update(setting, hypothesis, hypothesis.chosen, sizes(2)) is None
 
 
 def test_only_what_is_asked_is_answered(setting: Problem) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0, 0, 0, 0)), group_candidates(setting)
+    hypothesis, groups = whole(setting, sizes(2)), group_candidates(setting)
     asked = np.arange(len(setting.prior_costs)) % 3 == 0
     everything = addition_scores(setting, groups, hypothesis)
     some = addition_scores(setting, groups, hypothesis, AskedAdditions(asked, len(asked), -np.inf))
@@ -119,7 +121,7 @@ def test_only_what_is_asked_is_answered(setting: Problem) -> None:
 
 
 def test_gains_are_the_same_by_factors_as_by_eigenvalues(setting: Problem, monkeypatch: pytest.MonkeyPatch) -> None:
-    hypothesis, groups = whole(setting, (2, 0, 0, 0, 0, 0)), group_candidates(setting)
+    hypothesis, groups = whole(setting, sizes(2)), group_candidates(setting)
     by_factors = addition_scores(setting, groups, hypothesis)
 
     def indefinite(*blocks: Array) -> None:

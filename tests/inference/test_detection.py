@@ -23,12 +23,13 @@ from armscope.physics.backgrounds import backgrounds
 from armscope.physics.frames import free_frames
 from armscope.physics.registry import library
 
+from ..backgrounds import sizes
 from ..diagnosis.planted import planted
 from ..diagnosis.test_diagnose import QUICK
 
 ROWS, NOISE_MM = 80, 0.03
 DRAWS = 150
-PERFECT = (0, 0, 0, 0, 0, 0)
+PERFECT = sizes()
 
 
 @pytest.fixture(scope="module")

@@ -22,10 +22,11 @@ from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.registry import library
 
+from ..backgrounds import sizes
 from ..diagnosis.planted import planted
 
 ROWS = 40
-PERFECT = (0, 0, 0, 0, 0, 0)
+PERFECT = sizes()
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +56,7 @@ def test_blocks_add_up_to_the_sums_over_all_rows(setting: tuple[Problem, np.ndar
     assert problem.equations.n == 3 * ROWS
 
 
-@pytest.mark.parametrize("background", [PERFECT, (4, 0, 0, 0, 0, 0), (3, 2, 1, 0, 0, 0)])
+@pytest.mark.parametrize("background", [PERFECT, sizes(4), sizes(3, 2, 1)])
 def test_evidence_is_the_density_of_the_data(
     setting: tuple[Problem, np.ndarray, np.ndarray], background: BackgroundSizes
 ) -> None:
@@ -101,7 +102,7 @@ def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.nda
     """With noise known (not re-estimated), removal by the Savage-Dickey ratio is exact."""
     problem, *_ = setting
     chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
-    for background in (PERFECT, (4, 2, 1, 0, 0, 0)):
+    for background in (PERFECT, sizes(4, 2, 1)):
         whole = evaluate(problem, chosen, background, 0.05)
         fixed = Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
         whole = evaluate(fixed, chosen, background, fixed.least_noise)

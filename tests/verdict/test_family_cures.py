@@ -24,5 +24,5 @@ def test_small_errors_of_every_family_have_words(family: str) -> None:
 
 
 def test_a_family_without_words_of_its_own_is_mended_as_its_largest_effect() -> None:
-    thermal = verdicts.found("thermal_expansion", "link 2")
-    assert cure_of_family("thermal", [thermal, thermal], everywhere=False) == thermal.cure
+    scale = verdicts.found("instrument_scale", "instrument")
+    assert cure_of_family("instrument", [scale, scale], everywhere=False) == scale.cure

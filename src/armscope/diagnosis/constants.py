@@ -33,7 +33,7 @@ class BackgroundPriors(Constants):
         "judgement: from a hundredth of a millimetre to a workshop between morning and noon",
     )
     starts: tuple[tuple[int, ...], ...] = constant(
-        ((0, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0), (4, 0, 0, 0, 0, 0), (3, 3, 2, 2, 0, 3)),
+        ((0, 0, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0, 0), (4, 0, 0, 0, 0, 0, 0), (3, 3, 2, 2, 0, 3, 3)),
         "sizes of the backgrounds from which searches start",
         "judgement: a perfect arm, two with geometric tolerances, one with a little of everything",
         unit="indices",

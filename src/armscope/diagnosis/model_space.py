@@ -80,6 +80,7 @@ def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
         BACKGROUNDS.wander_shares,
         BACKGROUNDS.elastic_shares,
         BACKGROUNDS.wander_shares,
+        BACKGROUNDS.wander_shares,
     )
     families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], shares, strict=True)
     return tuple(

@@ -17,6 +17,7 @@ from armscope.physics.orientation_error import orientation_errors
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
 from armscope.physics.soft_start import soft_starts
+from armscope.physics.thermal import all_links_growing
 from armscope.physics.wander import link_wander, wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -24,17 +25,22 @@ from armscope.robot import Arm
 GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT = "geometric", "elastic", "transmission", "drift"
 SOFT = "soft start"
 """How much softer drives are under small loads: no soft arm need have it, so its size is learned by itself."""
+THERMAL = "thermal"
+"""How much all links grow with the recorded temperature."""
 ORIENTATION = "orientation"
 """How smoothly the orientations' instrument errs: nothing of the arm, and no point moves by it."""
-FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT, ORIENTATION)
-MENDED = {GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,)}
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT, ORIENTATION, THERMAL)
+MENDED = {
+    GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,),
+    THERMAL: (THERMAL,),
+}  # fmt: skip
 """As what families are told: who mends one of the same, mends the others."""
 MASSES = "mass"
 """The family that comes with all that gives way: how wrong stated masses are, in shares."""
 
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
-    """By family: D-H constants, what gives way, gears' first waves, a base's wander, soft starts, orientations' errors.
+    """By family: D-H constants, what gives way, gears' waves, wander, soft starts, orientations' errors, links' growth.
 
     Args:
         arm: the nominal arm.
@@ -58,6 +64,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
         SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
         ORIENTATION: orientation_errors(recordings),
+        THERMAL: all_links_growing(arm, recordings),
     }
 
 

@@ -110,6 +110,13 @@ class PlausibleSizes(Constants):
     expansion_per_k: float = constant(
         30e-6, "growth of a link", "convention: steel 11-12, aluminium 23-24 millionths per kelvin", unit="1/K"
     )
+    uneven_expansion_per_k: float = constant(
+        10e-6,
+        "by which a link's growth differs from the other links'",
+        "derived: half of what lies between steel and aluminium, 6 millionths per kelvin, and that one link is warmer "
+        "than another",
+        unit="1/K",
+    )
     growth: float = constant(
         1.0e-4,
         "by which links grow or shrink in a session, as a share of their length",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, term
@@ -17,6 +18,26 @@ def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for place, products in growing_links(arm, Driver("warmth")):
         coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
         yield Placed(THERMAL_EXPANSION, place, (coefficient,), (1.0,), "temperature")
+
+
+def all_links_growing(arm: Arm, recordings: Recordings) -> list[Placed]:
+    """What every arm does in a hall whose temperature changes: its links grow, nearly alike.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the table, with temperatures.
+
+    Returns:
+        The growth of all links as of one material, then by how much each one's differs; none where the temperature
+        hardly changes, or one link alone is long enough to be seen growing.
+    """
+    links = list(_place_links(arm, recordings))
+    if len(links) < 2:
+        return []
+    products = tuple(product for link in links for product in link.terms[0].products)
+    alike = term("growth", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
+    whole = replace(links[0], location="arm", terms=(alike,), prior_scale=(PLAUSIBLE.expansion_per_k,))
+    return [whole, *(replace(link, prior_scale=(PLAUSIBLE.uneven_expansion_per_k,)) for link in links)]
 
 
 def growing_links(arm: Arm, driver: Driver) -> Iterator[tuple[str, tuple[Product, ...]]]:

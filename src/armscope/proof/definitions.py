@@ -24,8 +24,8 @@ frames and D-H values leave, or 1.5 times its own size. An `unknown` is never wr
 D-H error above 20 mm or 50 mrad, or a compliance, amplitude or play 50 times the true one. The oracle of such an arm
 knows every effect, where it is and about how large, of a gear's waves their numbers and how they fall; it fits frames
 and sizes to the recorded rows. What follows a column that the table lacks it can't predict; where times are not
-recorded, held-out rows are as the recorded ones were on average. The diagnosis is near it if its held-out RMS is at
-most 10 % larger.
+recorded, held-out rows are as the recorded ones were on average, and so it is of a diagnosis's model. The diagnosis is
+near the oracle if its held-out RMS is at most 10 % larger.
 
 **Outcome** of a concealed effect: `named` (its own name), `acceptable` (a sealed alternative), `listed` (only among
 the alternatives of another name), `located` (another name, or `unknown`, at its place), `missed`.

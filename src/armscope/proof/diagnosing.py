@@ -9,17 +9,23 @@ import sys
 import time
 import traceback
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from armscope.core.files import new_folder, write_table, write_text
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose, write_verdict
-from armscope.physics.model import predict
+from armscope.physics.model import FittedModel, predict
 from armscope.proof.answers import FAILURE, PREDICTED
-from armscope.recordings import read_recordings
+from armscope.recordings import Recordings, read_recordings
 from armscope.recordings.columns import AXES_MM
 from armscope.robot import load_arm
+
+MOMENTS = 16
+"""Of the session, at which poses are predicted whose time nobody knows."""
 
 
 def diagnose_worlds(worlds: Iterable[Path], output: Path, settings: Settings) -> None:
@@ -45,8 +51,30 @@ def diagnose_worlds(worlds: Iterable[Path], output: Path, settings: Settings) ->
 
 def _diagnose(world: Path, output: Path, settings: Settings) -> None:
     arm = load_arm(world / "robot.yaml")
-    verdict = diagnose(arm, read_recordings(world / "recordings.csv", arm.n_motors), settings)
+    recordings = read_recordings(world / "recordings.csv", arm.n_motors)
+    verdict = diagnose(arm, recordings, settings)
     write_verdict(verdict, output)
     poses = read_recordings(world / "test_poses.csv", arm.n_motors, measured=False)
-    points = predict(verdict.model, poses) * 1e3
+    points = predicted_during(verdict.model, recordings, poses) * 1e3
     write_table(output / PREDICTED, pd.DataFrame(points, columns=AXES_MM))
+
+
+def predicted_during(model: FittedModel, recordings: Recordings, poses: Recordings) -> Array:
+    """(N, 3) m, points of poses that were taken among the recorded rows, nobody knows when.
+
+    `armscope predict` takes a pose without a time for one of now, after all that was recorded. Held-out rows are of the
+    session, as the oracle knows, too (`armscope.world.oracle`): where no times tell when, it is as it was on average.
+
+    Args:
+        model: of the recorded rows.
+        recordings: these.
+        poses: N others of the session.
+
+    Returns:
+        The points in the measurement frame.
+    """
+    if poses.time is not None:
+        return predict(model, poses)
+    moments = np.quantile(recordings.number, (np.arange(MOMENTS) + 0.5) / MOMENTS)
+    points = [predict(model, replace(poses, number=np.full(len(poses), at))) for at in moments]
+    return np.asarray(np.mean(points, axis=0))

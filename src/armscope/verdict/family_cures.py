@@ -14,6 +14,8 @@ _CURES = {
     "deflection in the commands (`armscope compensate`).",
     "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or compensate for them in "
     "the commands (`armscope compensate`); replace the worst gear.",
+    "thermal": "Warm the arm up before work and measure at the temperature of work; or compensate for the growth in "
+    "the commands, at the temperature of the day (`armscope compensate`).",
     "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again: what is fitted here "
     "describes this recording, not the arm.",
     "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "

@@ -11,7 +11,11 @@ from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.wording import (
+    BESIDE,
+    IN_ALL,
+    KINDS,
     SMALL,
+    SPREAD,
     also_out,
     capitalised,
     effect_in_words,
@@ -31,23 +35,6 @@ ANOTHER_MODEL = "another model"
 
 MOST_TOLD = 3
 """More causes than this are counted, not told."""
-_KINDS = {"geometric": "geometry", "elastic": "stiffness", "transmission": "drives"}
-_SPREAD = {
-    "geometric": "small errors of geometry in all joints and links",
-    "elastic": "all joints and links give way a little",
-    "transmission": "small errors in all drives",
-    "drift": "a slow drift of base and instrument",
-}
-"""Causes of which no member stands out."""
-_ALL = {
-    "geometric": "the geometry is off in all joints and links",
-    "elastic": "all joints and links give way",
-    "transmission": "all drives are off",
-    "drift": "base and instrument drift",
-}
-"""The same where one stands out, but most of the error is everywhere."""
-_BESIDE = {"transmission": "all drives a little", "drift": "a slow drift"}
-"""Small errors of a family beside one that stands out; of others: `_OTHERS`."""
 _OTHERS = "all others a little"
 TOLD = 0.05
 """Share of the squared error from which a cause is told first; smaller ones come after, and are counted where none of
@@ -98,7 +85,7 @@ def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
 
 def _spread(cause: Cause) -> bool:
     """Whether a cause is small errors in the whole arm of which none stands out."""
-    return cause.everywhere and cause.text == _SPREAD.get(cause.family)
+    return cause.everywhere and cause.text == SPREAD.get(cause.family)
 
 
 def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
@@ -113,13 +100,13 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
         The clause.
     """
     told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
-    none_stands_out = _SPREAD.get(family, f"small {family} errors in all joints and links")
+    none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
     beside = also_out(family, told[0], members)
-    if small and small.share > sum(effect.share for effect in members) and family in _ALL:
-        return _with_others(f"{_ALL[family]}, most of all: {phrase(told[0])}", beside)
-    beside += [_BESIDE.get(family, _OTHERS)] if small else []
+    if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
+        return _with_others(f"{IN_ALL[family]}, most of all: {phrase(told[0])}", beside)
+    beside += [BESIDE.get(family, _OTHERS)] if small else []
     return _with_others(phrase(told[0]), beside)
 
 
@@ -162,7 +149,7 @@ def background_in_words(verdict: Verdict) -> str:
     """ "small errors of geometry and stiffness in all its joints and links, as any arm has"."""
     families = [family.family for family in verdict.background_families if family.present] or ["geometric"]
     wander = SMALL["drift"] if "drift" in families else ""
-    of_arm = [_KINDS.get(family, family) for family in families if family != "drift"]
+    of_arm = [KINDS.get(family, family) for family in families if family != "drift"]
     if not of_arm:
         return wander
     small = f"small errors of {enumerated(of_arm)} in all joints and links, as any arm has"
@@ -201,10 +188,10 @@ def _smaller(rest: Sequence[Cause]) -> Iterator[str]:
         told = f"{spelled(len(counted))} smaller cause{'s' if several else ''}"
         later = f"which pay{'' if several else 's'} only once the others are cured"
         yield f"{told} ({percent(share)})" if share > 0 else f"{told}, {later}"
-    kinds = [_KINDS[cause.family] for cause in spread if cause.family in _KINDS]
+    kinds = [KINDS[cause.family] for cause in spread if cause.family in KINDS]
     share = sum(cause.share for cause in spread)
     of_arm = [f"small errors of {enumerated(kinds)} in the whole arm"] if kinds else []
-    told = " and ".join([*of_arm, *(_SPREAD["drift"] for cause in spread if cause.family == "drift")])
+    told = " and ".join([*of_arm, *(SPREAD["drift"] for cause in spread if cause.family == "drift")])
     if told:
         yield f"{told} ({percent(share)})" if share > 0 else told
 

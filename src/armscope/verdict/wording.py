@@ -28,9 +28,34 @@ SMALL = {
     "geometric": "small errors of geometry in all joints and links",
     "elastic": "a little give in all joints and links",
     "transmission": "small errors in all drives",
+    "thermal": "links that grow a little with temperature",
     "drift": "a slow drift of the set-up",
 }
 """What every arm and set-up has a little of, by family."""
+KINDS = {
+    "geometric": "geometry",
+    "elastic": "stiffness",
+    "transmission": "drives",
+    "thermal": "growth with temperature",
+}
+SPREAD = {
+    "geometric": "small errors of geometry in all joints and links",
+    "elastic": "all joints and links give way a little",
+    "transmission": "small errors in all drives",
+    "thermal": "all links grow a little with temperature",
+    "drift": "a slow drift of base and instrument",
+}
+"""Causes of which no member stands out."""
+IN_ALL = {
+    "geometric": "the geometry is off in all joints and links",
+    "elastic": "all joints and links give way",
+    "transmission": "all drives are off",
+    "thermal": "all links grow with temperature",
+    "drift": "base and instrument drift",
+}
+"""The same where one stands out, but most of the error is everywhere."""
+BESIDE = {"transmission": "all drives a little", "drift": "a slow drift"}
+"""Small errors of a family beside one that stands out; of others: "all others a little"."""
 
 _ALSO = {
     "geometric": "also off",

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, TRANSMISSION
+from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRANSMISSION
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause
@@ -18,7 +18,8 @@ from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import SMALL, capitalised, enumerated, places_in_words
 
 ALL_AT_ONCE = {
-    GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening"
+    GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
+    THERMAL: "temperature",
 }  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
 OWN_FIT = (

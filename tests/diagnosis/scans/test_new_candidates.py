@@ -21,6 +21,7 @@ from armscope.physics.frames import free_frames
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.transmission import GEAR_MESH, mesh
 
+from ...backgrounds import sizes
 from ..planted import planted
 
 LINE = 12
@@ -40,7 +41,7 @@ def loop() -> SelectionLoop:
     round_ = SelectionLoop(
         fit_frames(arm, table), table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, lambda text, share: None
     )
-    round_.round([(0, 0, 0, 0, 0, 0)])
+    round_.round([sizes()])
     return round_
 
 
@@ -60,7 +61,7 @@ def test_the_planted_line_and_the_planted_jump_are_found_once_and_not_again_when
     assert mesh(3, LINE).variant in {placed.variant for placed in lines}
     assert any(placed.effect is BASE_SHIFT for placed in found)
     loop.candidates = [*loop.candidates, *found]
-    loop.round([(0, 0, 0, 0, 0, 0)])
+    loop.round([sizes()])
     chosen = {loop.space.placed[candidate].key for candidate in loop.best.candidates}
     assert {(GEAR_MESH.name, "joint 3"), (BASE_SHIFT.name, "base")} <= chosen
     assert not {(placed.key, placed.variant) for placed in scanned(loop)} & set(names)
