@@ -19,7 +19,8 @@ def seen(page, dark):
     """The middle of the left and of the right half of a page's chart, as a browser shows it."""
     picture = page.with_suffix(".png")
     subprocess.run(
-        [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--window-size={SIZE},{SIZE}", f"--user-data-dir={page.parent}/b",
+        [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--window-size={SIZE},{SIZE}",
+         f"--user-data-dir={page.parent}/b",
          f"--blink-settings=preferredColorScheme={0 if dark else 1}", f"--screenshot={picture}", page.as_uri()],
         check=True, capture_output=True, timeout=120,
     )  # fmt: skip
