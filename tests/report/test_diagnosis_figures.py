@@ -172,6 +172,20 @@ def test_the_waterfall_ends_at_the_last_step_and_shows_the_noise():
     assert max(x + wide for x, wide in bars) <= figure.width
 
 
+def test_a_narrow_waterfall_has_its_names_above_the_bars_and_fits_a_telephone():
+    steps = [("as stated", 60.0), ("+ asymmetric friction at joint 1", 3.0), ("+ a", 2.0)]
+    figure, wide = (draw_waterfall(steps, None, narrow=narrow) for narrow in (True, False))
+    (bars, left), (_, usual) = (
+        (shapes(each, "rect"), float(shapes(each, "rect")[0].get("x"))) for each in (figure, wide)
+    )
+    assert figure.width < 500
+    assert left < 10 < usual
+    named = [float(each.get("y")) for each in shapes(figure, "text") if "".join(each.itertext()) in dict(steps)]
+    tops = sorted({float(bar.get("y")) for bar in bars})
+    assert all(name < top for name, top in zip(named, tops, strict=True))
+    assert all(name > top for name, top in zip(named[1:], tops, strict=False))
+
+
 def test_steps_are_in_words_and_a_step_that_nobody_asked_for_is_left_out():
     labels = ("free frames", "gear_mesh at joint 1 (per_turn 9)", "tolerances everywhere")
     steps = tuple(verdicts.WaterfallStep(label, 1.0, 1.0) for label in labels)

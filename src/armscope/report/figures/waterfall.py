@@ -18,6 +18,8 @@ from armscope.verdict.wording import plain
 WIDTH, ROW, BAR, LETTERS = 860.0, 27.0, 17.0, 12.0
 """Of the picture, of a row and of its bar, and of the words, px."""
 WIDEST_NAMES = 390.0
+NARROW, WITH_NAME = 480.0, 45.0
+"""Of a picture for telephones, and of a row whose name stands above its bar, px."""
 BEYOND = 1.6
 """Other models' errors are drawn up to so many times the largest of the steps."""
 
@@ -43,6 +45,7 @@ def draw_waterfall(
     references: Sequence[tuple[str, float]] = (),
     spreads: Sequence[float] | None = None,
     quantity: Quantity = POSITIONS,
+    narrow: bool = False,
 ) -> Drawing:
     """Held-out error as effects enter, the noise floor, and other models fitted to the same rows.
 
@@ -52,16 +55,20 @@ def draw_waterfall(
         references: (model, held-out error), for comparison.
         spreads: standard deviation of each step's error from fold to fold: drawn as whiskers.
         quantity: what the error is.
+        narrow: whether names stand above the bars, so that the figure can be read on a telephone.
 
     Returns:
         The figure.
     """
     shown = [(name, rms) for name, rms in references if np.isfinite(rms)]
-    return _Bars(steps, noise, shown, spreads or [np.nan] * len(steps), quantity).drawn()
+    kind = _NarrowBars if narrow else _Bars
+    return kind(steps, noise, shown, spreads or [np.nan] * len(steps), quantity).drawn()
 
 
 class _Bars:
-    """Bars under each other; x turns errors into px."""
+    """Bars under each other, their names beside them; x turns errors into px."""
+
+    width, row = WIDTH, ROW
 
     def __init__(
         self,
@@ -75,42 +82,55 @@ class _Bars:
         self.quantity = quantity
         largest = max(rms for _, rms in steps)
         self.limit = 1.2 * max([largest, *(min(rms, BEYOND * largest) for _, rms in others)])
-        longest = max(len(name) for name, _ in [*steps, *others])
-        self.left = min(LETTER * LETTERS * longest + 14, WIDEST_NAMES)
+        self.left = self.beside([name for name, _ in [*steps, *others]])
         self.top, gap = 26.0, 30.0 if others else 0.0
-        self.bottom = self.top + ROW * (len(steps) + len(others)) + gap
+        self.bottom = self.top + self.row * (len(steps) + len(others)) + gap
         self.drawing = Drawing(
-            WIDTH, self.bottom + 46, "Held-out error as effects enter the model, with its spread from fold to fold"
+            self.width, self.bottom + 46, "Held-out error as effects enter the model, with its spread from fold to fold"
         )
 
+    @staticmethod
+    def beside(names: Sequence[str]) -> float:
+        """Where bars begin, px."""
+        return float(min(LETTER * LETTERS * max(map(len, names)) + 14, WIDEST_NAMES))
+
+    def name(self, middle: float, words: str, **look: str) -> None:
+        """A bar's name."""
+        self.drawing.text((self.left - 8, middle), words, size=LETTERS, anchor="end", **look)
+
     def x(self, error: float) -> float:
-        return self.left + min(error, self.limit) / self.limit * (WIDTH - self.left - 14)
+        return self.left + min(error, self.limit) / self.limit * (self.width - self.left - 14)
+
+    def middle(self, top: float) -> float:
+        """Of a row's bar."""
+        return top + self.row - ROW / 2
 
     def bar(self, top: float, start: float, end: float, colour: str) -> None:
         low, high = sorted((self.x(start), self.x(end)))
-        self.drawing.rectangle((low, top + 0.5 * (ROW - BAR)), (high - low, BAR), colour)
+        self.drawing.rectangle((low, self.middle(top) - BAR / 2), (high - low, BAR), colour)
 
     def drawn(self) -> Drawing:
         self.axis()
         for place, (name, rms) in enumerate(self.steps):
             self.step(place, name, rms)
-        start = self.top + ROW * len(self.steps) + 30
+        start = self.top + self.row * len(self.steps) + 30
         if self.others:
             words = "for comparison, fitted to the same rows:"
             self.drawing.text((self.left, start - 12), words, size=LETTERS, fill=QUIET)
         for place, (name, rms) in enumerate(self.others):
-            top, beyond = start + ROW * place, rms > self.limit
-            self.drawing.text((self.left - 8, top + ROW / 2), name, size=LETTERS, anchor="end", fill=QUIET)
+            top, beyond = start + self.row * place, rms > self.limit
+            middle = self.middle(top)
+            self.name(middle, name, fill=QUIET)
             self.bar(top, 0, rms, OTHERS)
-            at = (WIDTH - 20, top + ROW / 2) if beyond else (self.x(rms) + 6, top + ROW / 2)
+            at = (self.width - 20, middle) if beyond else (self.x(rms) + 6, middle)
             words = self.quantity.words(rms) + (" →" if beyond else "")
             self.drawing.text(at, words, size=LETTERS, anchor="end" if beyond else "start")
         return self.drawing
 
     def step(self, place: int, name: str, rms: float) -> None:
-        top, last = self.top + ROW * place, len(self.steps) - 1
-        before = self.steps[place - 1][1] if place else rms
-        self.drawing.text((self.left - 8, top + ROW / 2), name, size=LETTERS, anchor="end")
+        top, last = self.top + self.row * place, len(self.steps) - 1
+        middle, before = self.middle(top), self.steps[place - 1][1] if place else rms
+        self.name(middle, name)
         if place in (0, last):
             self.bar(top, 0, rms, AFTER if place else BEFORE)
         else:
@@ -118,7 +138,6 @@ class _Bars:
         if place:
             self.bar(top, rms, before, GAIN if rms <= before else LOSS)
         spread = self.spreads[place] if np.isfinite(self.spreads[place]) else 0.0
-        middle = top + ROW / 2
         if spread:
             ends = np.array([[self.x(max(rms - spread, 0)), middle], [self.x(rms + spread), middle]])
             self.drawing.line(ends, INK, 1.2, 2)
@@ -132,12 +151,25 @@ class _Bars:
             self.drawing.text((x, self.bottom + 10), number(tick), size=11, anchor="middle", fill=QUIET)
         whiskers = "; whiskers: standard deviation from fold to fold" if np.isfinite(self.spreads).any() else ""
         words = f"{self.quantity.axis}{whiskers}"
-        self.drawing.text(((self.left + WIDTH) / 2, self.bottom + 30), words, size=LETTERS, anchor="middle")
+        self.drawing.text(((self.left + self.width) / 2, self.bottom + 30), words, size=LETTERS, anchor="middle")
         if self.noise is not None:
             x = self.x(self.noise)
             self.drawing.line(np.array([[x, self.top - 6], [x, self.bottom]]), GOOD, 1.8, 3, "6 4")
             words = f"noise {self.quantity.words(self.noise)}"
             self.drawing.text((x + 3, self.top - 14), words, size=LETTERS, fill=GOOD, weight="bold")
+
+
+class _NarrowBars(_Bars):
+    """Names above the bars."""
+
+    width, row = NARROW, WITH_NAME
+
+    @staticmethod
+    def beside(names: Sequence[str]) -> float:
+        return 6.0
+
+    def name(self, middle: float, words: str, **look: str) -> None:
+        self.drawing.text((self.left, middle - BAR / 2 - 9), words, size=LETTERS, **look)
 
 
 def waterfall_figure(subject: Subject) -> Iterator[Drawn]:

@@ -67,7 +67,7 @@ def _has_a_place(location: str) -> bool:
 def waterfall_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
     """The relative error on held-out motion as causes enter."""
     steps = [(name, error) for name, error, _ in relative_steps(subject)]
-    yield Drawn("waterfall", draw_waterfall(steps, None, quantity=RELATIVE))
+    yield Drawn("waterfall", draw_waterfall(steps, None, quantity=RELATIVE, narrow=True))
 
 
 def relative_steps(subject: MotionSubject) -> list[tuple[str, float, float]]:
