@@ -2,9 +2,10 @@
 
 To the recorded torque of one joint something known is added: what no drive did. A set is diagnosed as it is, and again
 with each cause, of a size of STRENGTHS times what the model leaves at that joint. Nothing of the package's laws is
-used: causes are functions of recorded positions, their differences, and torques.
+used: causes are functions of recorded positions, their differences, and torques. Names that come beside are told
+apart: such as the set as it is had not even as an alternative, such as it had, and minor ones.
 
-    python -m benchmarks.motion_planted FOLDER [--sets emps panda-motion] [--runs ...] [--seed N]
+    python -m benchmarks.motion_planted FOLDER [--sets emps panda-motion ur10e-currents] [--runs ...] [--seed N]
 
 FOLDER holds the imported sets: NAME/motions.csv.gz and, where config/motions lacks it, NAME/robot.urdf.
 """
@@ -82,10 +83,9 @@ def telling(found: MotionDiagnosis) -> set[tuple[str, str]]:
     return {(each.effect, each.location) for each in found.verdict.effects if not (each.minor or each.nameless)}
 
 
-def alternatives(found: MotionDiagnosis, place: str) -> set[str]:
-    """What could stand in the place of causes at a joint."""
-    every = (other for each in found.verdict.effects for other in each.alternatives)
-    return {other.effect for other in every if other.location == place}
+def alternatives(found: MotionDiagnosis) -> set[tuple[str, str]]:
+    """What could stand in the place of its causes."""
+    return {(other.effect, other.location) for each in found.verdict.effects for other in each.alternatives}
 
 
 def judge(arm: MovingArm, motions: Motions, before: MotionDiagnosis, name: str, joint: int, rms: float) -> str:
@@ -96,12 +96,13 @@ def judge(arm: MovingArm, motions: Motions, before: MotionDiagnosis, name: str, 
     was, now = said(before), said(after)
     new = now.keys() - was.keys() - {(name, place)}
     size *= unit if name not in ("motor_constant", "torque_delay") else 1.0
-    there = "named" if (name, place) in now else "alternative" if name in alternatives(after, place) else "MISSED"
+    there = "named" if (name, place) in now else "alternative" if (name, place) in alternatives(after) else "MISSED"
     parameter = CAUSES[name][1]
     value, error = now.get((name, place), {}).get(parameter, (float("nan"), float("nan")))
     value -= was.get((name, place), {}).get(parameter, (0.0, 0.0))[0]
     held = abs(value - size) <= 1.96 * error
-    told = {"; new beside: ": new & telling(after), "; minor: ": new - telling(after)}
+    large, rivals = new & telling(after), alternatives(before)
+    told = {"; new beside: ": large - rivals, "; an alternative before: ": large & rivals, "; minor: ": new - large}
     beside = "".join(words + ", ".join(sorted(f"{e} {p}" for e, p in which)) for words, which in told.items() if which)
     return f"{name} {place}: {there}, {value:.4g} +- {1.96 * error:.2g} for {size:.4g} {held}{beside}"
 
@@ -110,7 +111,7 @@ def main() -> None:
     """See the module's docstring."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--sets", nargs="+", default=["emps", "panda-motion"])
+    parser.add_argument("--sets", nargs="+", default=["emps", "panda-motion", "ur10e-currents"])
     parser.add_argument("--runs", nargs="+", help="of the set, all by default")
     parser.add_argument("--seed", type=int, default=0)
     asked = parser.parse_args()
