@@ -17,6 +17,8 @@ def test_links_lead_somewhere(page: Path) -> None:
     links = re.findall(r"\]\(([^)#]+)[^)]*\)|(?:src|href)=\"([^\"#]+)\"", page.read_text(encoding="utf-8"))
     for link in {one or other for one, other in links}:
         assert "://" in link or (page.parent / link).exists(), link
+        if page.is_relative_to(ROOT / "docs") and "://" not in link:
+            assert (page.parent / link).resolve().is_relative_to(ROOT / "docs"), f"{link} is not part of the site"
 
 
 def test_the_citation_is_of_this_version() -> None:

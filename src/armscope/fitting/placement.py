@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.rotations import turned_by
+from armscope.core.rotations import cross_matrices, turned_by
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
@@ -138,6 +138,8 @@ def frame_columns(points: Array, turned: Array, base: Indices, tool: Indices, co
         (N, 3, 6 R + 3 K) m per m or rad.
     """
     n_bases, n_tools = counts
+    if counts == (1, 1):
+        return _columns_of_one_frame(points, turned)
     rows, axes = np.arange(len(points))[:, None], np.arange(3)
     x, y, z = points.T
     columns = np.zeros((len(points), 3, 6 * n_bases + 3 * n_tools))
@@ -146,6 +148,16 @@ def frame_columns(points: Array, turned: Array, base: Indices, tool: Indices, co
         columns[rows[:, 0], axis, 6 * base + turn] = moved
     for axis in range(3):
         columns[rows, axis, 6 * n_bases + 3 * tool[:, None] + axes] = turned[:, axis]
+    return columns
+
+
+def _columns_of_one_frame(points: Array, turned: Array) -> Array:
+    """(N, 3, 9) the same where all rows share base and tool: nothing has to be looked up."""
+    columns = np.zeros((len(points), 3, 9))
+    for axis in range(3):
+        columns[:, axis, axis] = 1.0
+    columns[:, :, 3:6] = cross_matrices(-points)  # axis x tool
+    columns[:, :, 6:] = turned
     return columns
 
 
