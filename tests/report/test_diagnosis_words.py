@@ -333,3 +333,12 @@ def test_a_rival_that_fits_alike_is_too_close_although_its_size_costs_it_evidenc
 def test_no_place_has_more_than_all_of_the_mismatch():
     case = verdicts.case(effects=(compliance(share=53.0), compliance("joint 3", share=48.0)))
     assert location_shares(case.verdict) == {"joint 2": 1.0, "joint 3": 1.0}
+
+
+def test_a_joint_that_turns_against_its_load_is_not_told_to_give_way():
+    along, against = (Parameter("compliance", "rad/(N m)", value, 1e-8) for value in (3.2e-7, -3.2e-7))
+    assert exact_phrase(found("joint_compliance", "joint 2", along)).startswith(
+        "joint 2 gives way by 0.32 µrad per N m"
+    )
+    told = exact_phrase(found("joint_compliance", "joint 2", against))
+    assert told == "joint 2 turns against gravity's pull, as no spring does, by 0.32 µrad per N m"

@@ -67,6 +67,22 @@ def swings(what: str) -> Clause:
     return clause
 
 
+def below_zero(number: str, what: str) -> Clause:
+    """A clause of a number that should not be negative and is; else it is not for use.
+
+    Args:
+        number: its name.
+        what: a template, which tells its size.
+    """
+
+    def clause(told: Told) -> str:
+        if told.numbers[number].value >= 0:
+            raise KeyError(number)
+        return what.format_map(told.words())
+
+    return clause
+
+
 CLEAR = 2.0
 """Standard errors from which one of several numbers is told in a sentence."""
 

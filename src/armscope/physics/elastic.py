@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import clear_ones
+from armscope.physics.clause import below_zero, clear_ones
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -124,6 +124,7 @@ JOINT_COMPLIANCE = Effect(
         "model do so.",
     ),
     clauses=(
+        below_zero("compliance", "{location} turns against gravity's pull, as no spring does, by {compliance}"),
         "{location} gives way by {compliance} under gravity",
         "{location} gives way by {soft_turn} under small loads already, and then hardens",
         "{location} gives way under gravity",
