@@ -183,6 +183,8 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
         name = channels(motions)[j]
         if factor < 0:
             cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
+            if arm.model.gravity.linear[2] > 0:
+                cure = f"gravity_m_s2 of robot.yaml points up: does the arm hang from a ceiling? If it does: {cure}"
             yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
         elif not 1 / OTHER_SIZE < factor < OTHER_SIZE:
             # a load that nobody stated does that to a wrist, and is no mistake of the table

@@ -133,7 +133,7 @@ def as_motions(
     count = len(units)
     sliding = np.array([unit == "m" for unit in units])
     kind, effort = reader.effort(sliding, measured)
-    unknown = [name for name in table.columns if name not in PLAIN and not re.fullmatch(MOTION_COLUMN, name)]
+    unknown = [name for name in table.columns if name not in PLAIN and not _is_of_motors(name, count)]
     notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
     temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
     own = reader.optional([f"temperature{j}_c" for j in range(1, count + 1)], 1.0)
@@ -154,6 +154,13 @@ def as_motions(
         link=reader.links(units),
         notes=notes,
         source=str(source),
+    )
+
+
+def _is_of_motors(column: str, count: int) -> bool:
+    """Whether a column is a quantity of one of so many motors."""
+    return bool(re.fullmatch(MOTION_COLUMN, column)) and all(
+        int(j) <= count for j in re.findall(r"^[a-z]+(\d+)_", column)
     )
 
 
@@ -201,7 +208,9 @@ class _Reader(ColumnReader):
         largest = LONGEST_SLIDE_M if unit == "m" else LARGEST_TURN_RAD
         beyond = np.flatnonzero(np.abs(values) > largest)
         if len(beyond):
-            cure = f"Are these degrees? Then call the column q{motor}_deg." if unit == "rad" else ""
+            cure = (
+                f"Are these degrees? Then call the column q{motor}_deg." if unit == "rad" else "Are these millimetres?"
+            )
             row = int(beyond[0])
             rule = f"a position lies within {largest:.4g} {'m' if unit == 'm' else 'rad'}"
             raise self._error(row, column, self.table[column].iloc[row], rule, cure)
@@ -218,6 +227,7 @@ class _Reader(ColumnReader):
             if any(name in self.table for name in columns):
                 missing = [name for name in columns if name not in self.table]
                 if missing:
+                    self._refuse_other_kind(missing[0], sliding)
                     rule = f"{', '.join(columns)} come together"
                     cure = nearest(missing[0], [name for name in self.table.columns if name not in columns])
                     raise InputError(self.source, "line 1", f"no column {missing[0]}", rule, cure)
@@ -225,6 +235,15 @@ class _Reader(ColumnReader):
         rule = f"what the motors did stands in {torque[0]} ... or {current[0]} ..."
         cure = nearest(torque[0], self.table.columns)
         raise InputError(self.source, "line 1", f"no column {torque[0]}", rule, cure)
+
+    def _refuse_other_kind(self, missing: str, sliding: NDArray[np.bool_]) -> None:
+        """Tell a joint whose position is a length and whose effort is a torque, or the other way round."""
+        for j, slides in enumerate(sliding, start=1):
+            own, other = (f"f{j}_n", f"tau{j}_nm") if slides else (f"tau{j}_nm", f"f{j}_n")
+            if missing == own and other in self.table:
+                found = f"{other} beside q{j}_{'m' if slides else 'rad'}"
+                rule = "a joint that turns has q_rad (or _deg) and tau_nm, one that slides q_m and f_n"
+                raise InputError(self.source, "line 1", found, rule, f"Rename one of them: what does joint {j} do?")
 
     def links(self, units: list[str]) -> Array | None:
         """(N, m) positions of the links, NaN of joints where none is recorded; None where there are none at all.

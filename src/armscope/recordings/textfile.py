@@ -190,6 +190,10 @@ def _why_ragged(count: int, width: int) -> str:
         return "A decimal comma splits a number in two: use points."
     if count == 0:
         return "Remove the blank line."
+    if count == 1:
+        return (
+            "Are its values parted by semicolons or tabs, and those of line 1 by commas? Or was the file cut off here?"
+        )
     return "Was the file cut off while it was written, or is a quotation mark never closed?"
 
 

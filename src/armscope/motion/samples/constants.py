@@ -171,6 +171,12 @@ class ReadingRules(Constants):
         "judgement: noise repeats no value",
         unit="samples",
     )
+    fine: float = constant(
+        200.0,
+        "in a channel's range, from which noise is more than a step as a rule and repeats no value",
+        "judgement: a step of half a percent; eight bits have 256",
+        unit="steps",
+    )
     cut_reach: float = constant(
         1.0,
         "of the torques' cut-off, within which a row holds some of what was cut off",

@@ -48,13 +48,21 @@ class Stretch:
 def limits(effort: Array) -> tuple[Array, Array]:
     """(m,) least and largest effort that channels (N, m) show where they were cut off; without end where they were not.
 
-    Noise repeats no value: one that a channel keeps for several samples in a row, and never exceeds, is its limit.
+    Noise repeats no value: one that a channel keeps for several samples in a row, and never exceeds, is its limit. Not
+    so of a channel in coarse steps, which keeps any value.
     """
-    several, found = np.ones(READING.at_the_limit), []
+    several, found, fine = np.ones(READING.at_the_limit), [], _steps(effort) >= READING.fine
     for limit, end in ((effort.min(axis=0), -np.inf), (effort.max(axis=0), np.inf)):
         held = [np.convolve(at, several, "valid").max() == len(several) for at in (effort == limit).T]
-        found.append(np.where(held & (np.ptp(effort, axis=0) > 0), limit, end))
+        found.append(np.where(held & fine, limit, end))
     return found[0], found[1]
+
+
+def _steps(effort: Array) -> Array:
+    """(m,) into how many of its smallest steps each channel's range parts."""
+    steps = np.abs(np.diff(effort, axis=0))
+    least = np.min(np.where(steps > 0, steps, np.inf), axis=0, initial=np.inf)
+    return np.asarray(np.ptp(effort, axis=0) / least)
 
 
 def mended(motions: Motions) -> tuple[Motions, list[Notice]]:
@@ -96,6 +104,10 @@ def _once(notices: list[Notice]) -> list[Notice]:
 def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, Array], list[Notice]]:
     time, label = motions.time[rows], f"run {motions.run[rows[0]]}" if motions.run[rows[0]] else "the table"
     steps = np.diff(time)
+    if not len(steps):
+        rule = "a run is a motion of many samples"
+        cure = "Does the column run number the rows? Name one motion in all its rows, or leave the column out."
+        raise InputError(motions.source, f"row {int(rows[0]) + 2}, column run", label, rule, cure)
     back = np.flatnonzero(steps < 0)
     if len(back):
         row = int(rows[back[0] + 1])

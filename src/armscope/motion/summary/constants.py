@@ -18,6 +18,12 @@ class PlausibleRules(Constants):
         "softer, so no name is refused by it",
         unit="Hz",
     )
+    samples_near_rest: float = constant(
+        1.0,
+        "by whose change of speed a joint that turns back must take to reach the speed of a friction near rest",
+        "derived: from that speed one way to it the other way are then two",
+        unit="samples",
+    )
     poses: int = constant(200, "in which a link's inertia is looked at", "judgement: it changes slowly", unit="rows")
 
 

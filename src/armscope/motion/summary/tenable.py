@@ -26,6 +26,7 @@ from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import OWN
+from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 
 
@@ -42,7 +43,8 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     barred: frozenset[int] = frozenset()
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
     for number in itertools.count():  # ends: from some round on names only go
-        wrong = frozenset({*_impossible(selected), *_cancelling(selected), *_of_one_path(selected)})
+        own = {*_impossible(selected), *_between_samples(selected, rate)}
+        wrong = frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
         if not wrong:
             break
         barred |= wrong
@@ -94,6 +96,22 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
             yield number  # no link follows a motor that moves to and fro faster than it swings itself
     yield from _in_place_of_friction(selected)
+
+
+def _between_samples(selected: SelectedCauses, rate: float) -> Iterator[int]:
+    """Friction near rest at speeds that a joint which turns back passes between two samples: none of them shows it.
+
+    What is left there is where in a sample friction changed sides.
+    """
+    for number in selected.best.candidates:
+        placed = selected.rows.layout.placed[number]
+        if placed.cause is not catalogue.STRIBECK:
+            continue
+        (_, _, speed), j = placed.scanned[0], placed.joints[0]
+        slow = [each.signals.ddq[np.abs(each.signals.dq[:, j]) < speed, j] for each in selected.rows.samples]
+        passed = np.abs(np.concatenate(slow)) / rate
+        if len(passed) and speed < PLAUSIBLE.samples_near_rest * np.median(passed):
+            yield number
 
 
 def _no_body(selected: SelectedCauses, number: int) -> bool:

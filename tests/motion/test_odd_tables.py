@@ -1,0 +1,77 @@
+"""Tables of motions that look right and are not, and some that look odd and are right."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from armscope.check.motions import check_moving
+from armscope.core.inputs import InputError
+from armscope.motion.check import check_motions
+from armscope.motion.pipeline import diagnose_motion
+from armscope.motion.samples.timing import mended
+from armscope.recordings.motions import as_motions, read_motions
+from tests.motion.moving import moved, robot, table
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_runs_of_which_one_is_sampled_four_times_more_slowly_name_nothing(seed: int) -> None:
+    """A joint that turns back passes all low speeds between two of its samples: no friction near rest is told there."""
+    motion = table(robot(), seed, seconds=10.0)
+    slower = motion[motion["run"] == "path 2"].iloc[::4]
+    mixed = pd.concat([motion[motion["run"] == "path 1"], slower], ignore_index=True)
+    verdict = diagnose_motion(robot(), as_motions(mixed, "motions.csv", 3)).verdict
+    assert verdict.answer == "nothing missing"
+    assert not verdict.effects
+
+
+def test_a_channel_in_coarse_steps_is_not_cut_off() -> None:
+    """It keeps its largest value as it keeps any other."""
+    motions = moved(robot(), 3)
+    coarse = replace(motions, effort=np.round(motions.effort / 5) * 5)
+    assert max(np.sum(coarse.effort[:, j] == coarse.effort[:, j].max()) for j in range(3)) > 20
+    assert "cut off" not in {notice.kind for notice in check_motions(robot(), coarse)}
+
+
+def test_a_run_of_one_sample_is_a_counter() -> None:
+    motion = table(robot(), 3, seconds=3.0)
+    numbered = as_motions(motion.assign(run=np.arange(len(motion))), "motions.csv", 3)
+    with pytest.raises(InputError, match=r"row 2, column run: .*number the rows"):
+        mended(numbered)
+
+
+def test_a_position_in_metres_beside_a_torque_says_which_two_do_not_go_together() -> None:
+    motion = table(robot(), 3, seconds=3.0)
+    with pytest.raises(InputError, match="found 'tau1_nm beside q1_m'"):
+        as_motions(motion.rename(columns={"q1_rad": "q1_m"}), "motions.csv", 3)
+    with pytest.raises(InputError, match="found 'f2_n beside q2_rad'"):
+        as_motions(motion.rename(columns={"tau2_nm": "f2_n"}), "motions.csv", 3)
+
+
+def test_millimetres_called_metres_are_asked_after() -> None:
+    motion = table(robot(), 3, seconds=3.0).rename(columns={"q1_rad": "q1_m", "tau1_nm": "f1_n"})
+    with pytest.raises(InputError, match=r"column q1_m: .*Are these millimetres\?"):
+        as_motions(motion.assign(q1_m=1000 * motion["q1_m"]), "motions.csv", 3)
+
+
+def test_a_torque_of_a_motor_that_the_arm_lacks_is_told() -> None:
+    motion = table(robot(), 3, seconds=3.0).assign(tau4_nm=1.0, temperature4_c=20.0)
+    assert as_motions(motion, "motions.csv", 3).notes == ("columns not used: tau4_nm, temperature4_c",)
+
+
+def test_rows_that_are_parted_otherwise_than_the_first_line_are_told(tmp_path: Path) -> None:
+    first, *rest = table(robot(), 3, seconds=3.0).to_csv(index=False).splitlines()
+    (tmp_path / "motions.csv").write_text("\n".join([first, *(line.replace(",", ";") for line in rest)]))
+    with pytest.raises(InputError, match="parted by semicolons or tabs"):
+        read_motions(tmp_path / "motions.csv")
+
+
+def test_gravity_that_points_up_is_asked_after_before_a_sign_is_turned() -> None:
+    hanging = robot(gravity_m_s2=[0, 0, 9.81])
+    told = [each.cure for each in check_moving(moved(robot(), 3), hanging).suspicions if "opposite" in each.statement]
+    assert told
+    assert all("points up" in cure for cure in told)
