@@ -48,6 +48,7 @@ class Background:
         rms_at_tool_mm: per axis, beyond what the free frames absorb.
         share: of the residual variance after the free frames that goes when they are cured as found, averaged over the
             orders in which all can be cured.
+        worst: the joint or link whose part moves the tool clearly more than any other's; "" where none does.
     """
 
     family: str
@@ -55,6 +56,7 @@ class Background:
     size: Number
     rms_at_tool_mm: Number
     share: Number
+    worst: str = ""
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,7 @@ ANOTHER_MODEL = "another model"
 MOST_TOLD = 3
 """More causes than this are counted, not told."""
 _OTHERS = "all others a little"
+_WORST = ", most at "
 TOLD = 0.05
 """Share of the squared error from which a cause is told first; smaller ones come after, and are counted where none of
 their members stands out."""
@@ -85,7 +86,7 @@ def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
 
 def _spread(cause: Cause) -> bool:
     """Whether a cause is small errors in the whole arm of which none stands out."""
-    return cause.everywhere and cause.text == SPREAD.get(cause.family)
+    return cause.everywhere and cause.text.partition(_WORST)[0] == SPREAD.get(cause.family)
 
 
 def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
@@ -101,6 +102,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     """
     told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
     none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
+    none_stands_out += _WORST + small.worst if small and small.worst else ""
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
     beside = also_out(family, told[0], members)

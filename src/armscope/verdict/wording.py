@@ -40,9 +40,9 @@ KINDS = {
 }
 SPREAD = {
     "geometric": "small errors of geometry in all joints and links",
-    "elastic": "all joints and links give way a little",
+    "elastic": "all joints and links give way",
     "transmission": "small errors in all drives",
-    "thermal": "all links grow a little with temperature",
+    "thermal": "all links grow with temperature",
     "drift": "a slow drift of base and instrument",
 }
 """Causes of which no member stands out."""

@@ -31,6 +31,11 @@ class TellingRules(Constants):
     background_seen_nats: float = constant(
         5.0, "evidence from which a background is said to be there", "judgement: 150 to 1", unit="nats"
     )
+    worst_place: float = constant(
+        1.5,
+        "times what small errors of any other place do at the tool, from which a family's worst place is told",
+        "judgement: less is a matter of the poses",
+    )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"
     )

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.detection import Detection
@@ -15,10 +16,12 @@ from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
 from armscope.measurement.constants import WEIGHTS
-from armscope.physics.backgrounds import FAMILIES, MENDED
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, MENDED, TRANSMISSION
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Background, Notice, Unexplained
+
+OF_JOINTS_AND_LINKS = (GEOMETRIC, ELASTIC, TRANSMISSION)
 
 
 def background_summaries(
@@ -52,8 +55,21 @@ def background_summaries(
             best.log_posterior - without.log_posterior > TELLING.background_seen_nats
         )
         share = sum(of_families[number] for number in numbers)
-        told.append(Background(family, present, sizes[numbers[0]], rms, share))
+        worst = _worst_place(state, equations, coefficients) if family in OF_JOINTS_AND_LINKS else ""
+        told.append(Background(family, present, sizes[numbers[0]], rms, share, worst))
     return tuple(told)
+
+
+def _worst_place(state: DiagnosisState, equations: NormalEquations, coefficients: Array) -> str:
+    """Where the small errors of a family (p,) do clearly more at the tool than anywhere else; "" for nowhere."""
+    layout = state.fit.layout
+    by_place: dict[str, Array] = {}
+    for part in state.fit.model.background:
+        columns = layout.of(part.placed)
+        by_place.setdefault(part.placed.location, np.zeros(len(coefficients)))[columns] = coefficients[columns]
+    sizes = {place: projected_rms(equations, layout.frames, own) for place, own in by_place.items() if own.any()}
+    worst, *others = sorted(sizes, key=lambda place: -sizes[place]) or [""]
+    return worst if others and sizes[worst] > TELLING.worst_place * sizes[others[0]] else ""
 
 
 def masses_in_error(
