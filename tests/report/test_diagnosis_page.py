@@ -249,9 +249,9 @@ def test_what_is_expected_of_a_step_is_as_sure_as_parts_of_the_rows_are_alike(tm
         for page in (report, report.with_name("work-order.html")):
             text = page.read_text().replace("\u00a0", " ")
             assert ("± 25 %" in text) == told
-        assert (
-            "5 parts that were held out by turns had 1.3 mm ± 25 %" in report.read_text().replace("\u00a0", " ")
-        ) == told
+        text = report.read_text().replace("\u00a0", " ")
+        assert ("5 parts that were held out by turns had 1.3 mm ± 25 %" in text) == told
+        assert not re.search(r"[a-z]\.<a", text), "a space stands between sentences"
 
 
 def test_a_value_beyond_what_arms_have_is_not_printed(tmp_path):
