@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.selection_loop import SelectionLoop
-from armscope.fitting.linearisation import point_residuals
+from armscope.fitting.linearisation import LinearisedTable, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise
 from armscope.physics.frames import free_frames
@@ -27,7 +27,10 @@ def test_readings_are_told_at_the_point_where_their_columns_were_taken() -> None
     round_.round([sizes()])
     found = round_.selected()
     values = found.best.coefficients(len(found.problem.scale)) / found.problem.scale
-    rows = LinearisedRows(found.point, table, found.fit.weights, found.space.layout)
+    assert found.table.recordings is table
+    rows = LinearisedRows(found.point, found.table, found.fit.weights, found.space.layout)
     left = rows.residuals(values[None])[0]
     np.testing.assert_allclose(left, found.fit.residuals, atol=0.004)
     assert np.abs(point_residuals(off, table) - point_residuals(found.fit.model, table)).max() > 0.2
+    apart = replace(rows, table=LinearisedTable(table))
+    np.testing.assert_allclose(apart.residuals(values[None])[0], left, rtol=0, atol=1e-9)

@@ -148,7 +148,7 @@ def _validated(
 ) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
     """Errors on held-out rows, and the waterfall in the order of the shares."""
     progress("validating on held-out rows", 0.75)
-    rows = LinearisedRows(state.point, state.recordings, state.fit.weights, state.space.layout)
+    rows = LinearisedRows(state.point, state.table, state.fit.weights, state.space.layout)
     return cross_validate(state.problem, state.blocks, state.split, state.best, order, rows)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import columns, structured_design
-from armscope.fitting.linearisation import linearised
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.parameter_layout import ParameterLayout, current_parameters
 from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.row_weights import RowWeights
@@ -27,21 +27,26 @@ class LinearisedRows:
 
     Attributes:
         point: the model at which columns were taken.
-        recordings: the rows.
+        table: the rows, with what is already known of them.
         weights: of the fit.
         layout: of the columns.
     """
 
     point: FittedModel
-    recordings: Recordings
+    table: LinearisedTable
     weights: RowWeights
     layout: ParameterLayout
 
     def some(self, which: Indices) -> LinearisedRows:
         """Some of the rows."""
-        if len(which) == len(self.recordings):
+        if len(which) == len(self.table):
             return self
-        return replace(self, recordings=self.recordings.rows(which), weights=self.weights.take(which))
+        return replace(self, table=self.table.rows(which), weights=self.weights.take(which))
+
+    @property
+    def recordings(self) -> Recordings:
+        """The rows as they were recorded."""
+        return self.table.recordings
 
     @property
     def slices(self) -> dict[str, slice]:
@@ -65,8 +70,8 @@ class LinearisedRows:
         Returns:
             A row's numbers in all channels stand together.
         """
-        table = self.recordings if at is None else self.recordings.rows(at)
-        postures = (posture for _, posture in linearised(table).chunks(self.point))
+        table = LinearisedTable(self.recordings if at is None else self.recordings.rows(at))
+        postures = (posture for _, posture in table.chunks(self.point))
         return np.concatenate([columns(WhitenedPosture.plain(each, self.weights.channels), terms) for each in postures])
 
     def residuals(self, values: Array, number: Indices | None = None) -> Array:
@@ -84,7 +89,7 @@ class LinearisedRows:
         column_order, current = self.layout.column_order, current_parameters(self.layout, self.point)
         added = (values - current)[:, :, column_order.order]
         left = np.empty((values.shape[1], len(self.recordings), self.width))
-        for part, posture in linearised(self.recordings).chunks(self.point):
+        for part, posture in self.table.chunks(self.point):
             plain = Whitener.plain(self.weights.channels, len(part))
             seen = structured_design(WhitenedPosture(posture, plain), column_order)
             y = plain.response(self.point, posture)

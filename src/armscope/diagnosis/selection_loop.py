@@ -281,6 +281,7 @@ class SelectionLoop:
             fit=self.fit,
             scatter=tuple(self.noise.scatter),
             growth=self.noise.growth,
+            table=self.table,
         )
 
     def _state(self) -> RoundState:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from armscope.diagnosis.held_out import RowSplit
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.fitting.joint_scatter import Scattered
+from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.refit import Refit
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
@@ -32,6 +33,7 @@ class Selected:
         fit: the exact fit of ``best``.
         scatter: of motors that stand elsewhere each time.
         growth: of the noise with the distance.
+        table: the rows, with what the rounds computed on them.
     """
 
     space: EffectSpace
@@ -43,6 +45,7 @@ class Selected:
     fit: Refit
     scatter: tuple[Scattered, ...]
     growth: Growth | None
+    table: LinearisedTable
 
 
 @dataclass(frozen=True, eq=False)
