@@ -45,7 +45,7 @@ OFFSET = Cause(
     "torque_offset",
     DRIVE,
     "The recorded torque is off by a constant, or dry friction differs by the direction of motion: while a joint moves "
-    "these are the same torque.",
+    "these are the same torque. So is a sensor's dead zone where torque keeps its sign.",
     "Turn the joint slowly either way: the mean of the two torques, less gravity's, is the offset. What is still read "
     "with the drive off is the sensor's, the rest is friction's.",
     "Subtract the offset from the recorded torque.",
