@@ -31,6 +31,21 @@ def test_a_base_that_jumped_midway_is_taken_to_be_halfway_where_no_time_tells() 
     np.testing.assert_allclose(during, of_now / 2, atol=1e-12)
 
 
+def test_on_average_is_that_of_the_run_in_which_poses_were_taken() -> None:
+    """Rows 1 to 20 are one run, 21 to 40 another, in whose midst the base jumped."""
+    arm = arm_named("six-axis")
+    table = replace(one_run(arm, 40, seed=3), time=None, run=np.repeat(["a", "b"], 20))
+    jump = shift(BASE_SHIFT, table, 30, multiplicity=1)
+    values = np.zeros(len(jump.terms))
+    values[0] = JUMP_M
+    still = Base(np.eye(3), np.zeros(3))
+    model = FittedModel(arm, {"a": still, "b": still}, (), (Part(jump, values),))
+    poses = one_run(arm, 10, seed=4)
+    poses = replace(poses, time=None, number=np.full(10, np.nan), run=np.repeat(["a", "b"], 5))
+    moved = predicted_during(model, table, poses) - predict(replace(model, parts=()), poses)
+    np.testing.assert_allclose(moved[:, 0], np.repeat([0.0, JUMP_M / 2], 5), atol=1e-12)
+
+
 def test_poses_whose_time_is_known_are_predicted_at_it() -> None:
     arm = arm_named("six-axis")
     table = one_run(arm, 40, seed=3)

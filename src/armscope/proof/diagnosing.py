@@ -63,18 +63,22 @@ def predicted_during(model: FittedModel, recordings: Recordings, poses: Recordin
     """(N, 3) m, points of poses that were taken among the recorded rows, nobody knows when.
 
     `armscope predict` takes a pose without a time for one of now, after all that was recorded. Held-out rows are of the
-    session, as the oracle knows, too (`armscope.world.oracle`): where no times tell when, it is as it was on average.
+    session, as the oracle knows, too (`armscope.world.oracle`): where no times tell when, it is as it was on average
+    in their run.
 
     Args:
         model: of the recorded rows.
         recordings: these.
-        poses: N others of the session.
+        poses: N others of its runs.
 
     Returns:
         The points in the measurement frame.
     """
     if poses.time is not None:
         return predict(model, poses)
-    moments = np.quantile(recordings.number, (np.arange(MOMENTS) + 0.5) / MOMENTS)
-    points = [predict(model, replace(poses, number=np.full(len(poses), at))) for at in moments]
-    return np.asarray(np.mean(points, axis=0))
+    shares = (np.arange(MOMENTS) + 0.5) / MOMENTS
+    moments = np.empty((MOMENTS, len(poses)))
+    for run in np.unique(poses.run):
+        of_run = recordings.run == run
+        moments[:, poses.run == run] = np.quantile(recordings.number[of_run], shares)[:, None]
+    return np.asarray(np.mean([predict(model, replace(poses, number=at)) for at in moments], axis=0))
