@@ -55,7 +55,7 @@ def background_summaries(
             best.log_posterior - without.log_posterior > TELLING.background_seen_nats
         )
         share = sum(of_families[number] for number in numbers)
-        worst = _worst_place(state, equations, coefficients) if family in OF_JOINTS_AND_LINKS else ""
+        worst = _worst_place(state, equations, coefficients) if present and family in OF_JOINTS_AND_LINKS else ""
         told.append(Background(family, present, sizes[numbers[0]], rms, share, worst))
     return tuple(told)
 
