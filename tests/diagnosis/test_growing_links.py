@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from armscope import compensate
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.model import predict
@@ -56,6 +58,24 @@ def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() 
     missed = predict(verdict.model, replace(warmer, number=np.full(100, np.nan))) - truth
     as_cold = predict(verdict.model, replace(cold, number=np.full(100, np.nan))) - truth
     assert np.sqrt(np.mean(missed**2)) < 0.5 * np.sqrt(np.mean(as_cold**2))
+
+
+def test_commands_for_the_temperature_of_the_day_take_the_growth_out() -> None:
+    """The family's cure, as worded, by an arm whose growth is computed by hand."""
+    arm, table = session(PER_K)
+    poses = replace(one_run(arm, 40, seed=91), temperature=np.full(40, 29.0))
+    path = pd.DataFrame(poses.motor_angles, columns=[f"q{j}_rad" for j in range(1, 7)])
+    path = path.assign(temperature_c=poses.temperature, payload_kg=poses.payload)
+    wanted = forward_kinematics(arm, poses.motor_angles)
+
+    def missed_mm(commands: Array) -> float:
+        reached = forward_kinematics(arm, commands) + grown(arm, replace(poses, motor_angles=commands), PER_K)
+        return float(1e3 * np.sqrt(np.nanmean((reached - wanted) ** 2)))
+
+    found = compensate(diagnose(arm, table, QUICK).model, path, table)
+    assert np.isfinite(found.commands).all(axis=1).mean() > 0.9
+    assert missed_mm(poses.motor_angles) > 0.1
+    assert missed_mm(found.commands) < 0.01
 
 
 def test_one_link_that_grows_by_itself_has_its_name() -> None:
