@@ -17,6 +17,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from armscope.core.types import Array, Indices
@@ -146,6 +147,14 @@ def _label(found: Selected, number: int) -> str:
     return f"{candidate.kind} at {candidate.location}".replace("_", " ")
 
 
+def _listed(panel: Axes, words: Sequence[str], size: int | None, measure: str) -> None:
+    """One row per name, the first on top."""
+    panel.set_yticks(range(len(words)), words, fontsize=size)
+    panel.invert_yaxis()
+    panel.grid(visible=False, axis="y")
+    panel.set_xlabel(measure)
+
+
 def evidence_figure(told: Sequence[Step]) -> Figure:
     """Evidence of each step beside its price."""
     with styled():
@@ -159,10 +168,8 @@ def evidence_figure(told: Sequence[Step]) -> Figure:
         panel.set_axisbelow(True)
         panel.set_xscale("symlog", linthresh=1.0)
         panel.set_xlim(0, 12 * max(step.evidence for step in told))
-        panel.set_yticks(range(len(told)), [step.words for step in told])
-        panel.invert_yaxis()
-        panel.grid(visible=False, axis="y")
-        panel.set_xlabel("evidence that the step brings (nats, logarithmic); red mark: its price")
+        measure = "evidence that the step brings (nats, logarithmic); red mark: its price"
+        _listed(panel, [step.words for step in told], None, measure)
     return figure
 
 
@@ -225,11 +232,9 @@ def family_figure(told: Sequence[Member]) -> Figure:
                 panel.annotate(text, (each.beyond, y), (0, 7), textcoords="offset points", ha="center", fontsize=8)
         panel.plot([], [], "D", color=BLUE, label="of a link that gets a name")
         panel.plot([], [], "o", color=GREY, label="stays in the family")
-        panel.set_yticks(range(len(told)), [each.words for each in told], fontsize=7)
         panel.set_xlim(left=0)
-        panel.invert_yaxis()
-        panel.grid(visible=False, axis="y")
-        panel.set_xlabel("size of the D-H error, in usual values of its family (bars: 95 %)")
+        measure = "size of the D-H error, in usual values of its family (bars: 95 %)"
+        _listed(panel, [each.words for each in told], 7, measure)
         panel.legend(loc="lower right", frameon=True)
     return figure
 
@@ -253,11 +258,7 @@ def worth(found: Selected) -> list[tuple[str, float]]:
     told = sorted(zip(words, gains, strict=True), key=lambda each: -each[1])
     told.append((f"{_label(found, number)}?", float(gain)))
     noise = best.noise
-
-    def larger(gain: float) -> float:
-        return 1e3 * (float(np.sqrt(noise**2 * (1 + gain / found.problem.n))) - noise)
-
-    return [(text, larger(gain)) for text, gain in told]
+    return [(text, 1e3 * (float(np.sqrt(noise**2 * (1 + gain / found.problem.n))) - noise)) for text, gain in told]
 
 
 def worth_figure(told: Sequence[tuple[str, float]]) -> Figure:
@@ -271,10 +272,7 @@ def worth_figure(told: Sequence[tuple[str, float]]) -> Figure:
         panel.set_axisbelow(True)
         panel.axvline(0, color="black", lw=0.8)
         panel.set_xlim(min(0.0, *(size for _, size in told)), 1.25 * told[0][1])
-        panel.set_yticks(range(len(told)), [text for text, _ in told], fontsize=8)
-        panel.invert_yaxis()
-        panel.grid(visible=False, axis="y")
-        panel.set_xlabel("held-out error without it: growth (µm RMS per axis)")
+        _listed(panel, [text for text, _ in told], 8, "held-out error without it: growth (µm RMS per axis)")
     return figure
 
 

@@ -9,7 +9,6 @@ from armscope.world.effects import LIBRARY, linear_numbers
 from armscope.world.effects_around import BASE
 from armscope.world.effects_of_joints import SOFT_SIDE
 from armscope.world.effects_of_links import close_loop
-from armscope.world.outside import OUTSIDE
 from armscope.world.statics import Hidden
 from armscope.world.strength import equilibrium
 from tests.world.by_hand import ARMS, HandArm
@@ -268,34 +267,3 @@ def test_cosine_and_sine_parts_say_the_same_as_amplitude_and_phase(kind):
     assert (c_name, s_name) == (f"cosine_{order}", f"sine_{order}")
     q = np.linspace(-3, 3, 50)
     assert cosine * np.cos(order * q) + sine * np.sin(order * q) == pytest.approx(wave(effect.values, q), abs=1e-15)
-
-
-OUTSIDE_ERRORS = {
-    "unknown/local_bump": lambda v, s, q, a, t: v["amplitude"] * np.exp(-0.5 * ((q - v["centre"]) / v["width"]) ** 2),
-    "unknown/worn_hysteresis": lambda v, s, q, a, t: -a * v["amplitude"] * (1 + np.tanh((q - v["centre"]) / 0.3)),
-    "unknown/loose_beyond": lambda v, s, q, a, t: v["amplitude"] * np.clip(q - v["centre"], 0, None),
-    "unknown/tooth_jump": lambda v, s, q, a, t: v["amplitude"] * (q > v["centre"]),
-    "unknown/warm_up": lambda v, s, q, a, t: v["amplitude"] * np.exp(-s.time / v["constant"]),
-    "unknown/harmonic_product": lambda v, s, q, a, t: (
-        v["amplitude"] * np.sin(2 * q) * np.sin(2 * s.commanded[:, int(v["neighbour"]) - 1])
-    ),
-    "unknown/load_dead_band": lambda v, s, q, a, t: (
-        v["amplitude"] * np.sign(t) * np.clip(np.abs(t) - v["threshold"], 0, None) / (np.abs(t).max() - v["threshold"])
-    ),
-    "unknown/one_sided_spring": lambda v, s, q, a, t: v["amplitude"] * np.clip(t, 0, None) / np.abs(t).max(),
-}
-
-
-def test_no_effect_outside_the_library_goes_unchecked():
-    assert set(OUTSIDE_ERRORS) == {kind.name for kind in OUTSIDE}
-
-
-@pytest.mark.parametrize("kind", OUTSIDE_ERRORS)
-def test_an_effect_outside_the_library_turns_its_motor_along_its_curve(kind):
-    scene, _ = scene_of("six-axis")
-    effect = drawn(scene, kind, "joint 3")
-    s, j = scene.session, 2
-    amount = OUTSIDE_ERRORS[kind](effect.values, s, s.commanded[:, j], s.approach[:, j], scene.torque[:, j])
-    by_hand = turned_by_hand("six-axis", scene, on_motor(scene, j, amount))
-    # curves of the load are followed to the equilibrium, where the load is a little different
-    assert np.abs(moved(scene, effect) - by_hand).max() < 0.02 * np.abs(by_hand).max()

@@ -53,7 +53,7 @@ def _load(given: Problems, states: Words, pack: Pack) -> None:
     dimensions = given.targets.shape[1]
     padded = len(pack.image) // LANES
     for lane in range(LANES):
-        swarm = pack.swarms[lane]
+        swarm, factor = pack.swarms[lane], given.factor_of[pack.swarms[lane]]
         pack.tally[LANES + lane] = given.rests[swarm]
         pack.at_work[lane] = True
         for k in range(4):
@@ -65,8 +65,7 @@ def _load(given: Problems, states: Words, pack: Pack) -> None:
             continue
         for column in range(dimensions):
             for row in range(column + 1):
-                entry = given.factors[given.factor_of[swarm], row, column]
-                pack.factor[(column * padded + row) * LANES + lane] = entry
+                pack.factor[(column * padded + row) * LANES + lane] = given.factors[factor, row, column]
 
 
 @_compiled
@@ -137,10 +136,8 @@ def _move(
     social *= WEIGHT_UNIT
     for _ in range(dimensions):
         for lane in range(lanes):
-            a = stream[lane]
-            b = stream[ONE + lane]
-            c = stream[_TWO + lane]
-            counter = stream[_THREE + lane]
+            a, b = stream[lane], stream[ONE + lane]
+            c, counter = stream[_TWO + lane], stream[_THREE + lane]
             word = a + b + counter
             stream[lane] = b ^ (b >> np.uint64(11))
             stream[ONE + lane] = c + (c << np.uint64(3))
@@ -189,8 +186,7 @@ def _sum_images(
     rows, dimensions = np.uint64(len(image)), len(first_blocks)
     for k in range(_NONE, rows, np.uint64(1)):
         image[k] = 0.0
-    column_start = _NONE
-    block = np.uint64(ROW_BLOCK) * ONE
+    column_start, block = _NONE, np.uint64(ROW_BLOCK) * ONE
     for column in range(dimensions):
         used = np.uint64(column // ROW_BLOCK + 1) * block
         for row in range(first_blocks[column] * block, used, block):
@@ -271,8 +267,7 @@ def _note(given: Problems, outcome: Outcome, pack: Pack, iteration: int) -> bool
         if not pack.at_work[lane]:
             outcome.codes[pack.swarms[lane]] = THRESHOLD if reached else (DIVERGED if gone else OTHER)
             _hand_over(outcome, pack, lane, iteration)
-        else:
-            any_at_work = True
+        any_at_work = any_at_work or pack.at_work[lane]
     return any_at_work
 
 
@@ -297,9 +292,9 @@ def _any_finite(given: Problems, pack: Pack, lane: int) -> bool:
     """Whether any particle of a lane still has a finite position."""
     dimensions = given.targets.shape[1]
     for particle in range(given.particles):
-        finite = True
         for d in range(dimensions):
-            finite = finite and np.isfinite(pack.cells[(particle * dimensions + d) * 3 * LANES + lane])
-        if finite:
+            if not np.isfinite(pack.cells[(particle * dimensions + d) * 3 * LANES + lane]):
+                break
+        else:
             return True
     return False

@@ -1,0 +1,107 @@
+"""Common mistakes are named by what they are."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.robot.arm import build_arm
+from tests.check.test_check import problems
+
+
+def _exchange(table):
+    positions = table.positions.copy()
+    positions[[10, 40]] = positions[[40, 10]]
+    return replace(table, positions=positions)
+
+
+def _off(table, motor, zero):
+    return replace(table, motor_angles=table.motor_angles + np.where(np.arange(6) == motor, zero, 0))
+
+
+def _flip(table, motor):
+    return replace(table, motor_angles=table.motor_angles * np.where(np.arange(6) == motor, -1, 1))
+
+
+def _relative(table, sign):
+    """Angle 3 with that of joint 2 added or taken off."""
+    return table.motor_angles + sign * table.motor_angles[:, [1]] * (np.arange(6) == 2)
+
+
+@pytest.mark.parametrize(
+    ("mistake", "words"),
+    [
+        (lambda t: replace(t, motor_angles=np.degrees(t.motor_angles)), "degrees that were declared as radians"),
+        (lambda t: replace(t, motor_angles=np.radians(t.motor_angles)), "radians that were declared as degrees"),
+        (lambda t: replace(t, positions=t.positions / 1e3), "metres that were declared as millimetres"),
+        (lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
+        (lambda t: replace(t, positions=t.positions * [1, -1, 1]), "left-handed"),
+        (lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
+        (lambda t: replace(t, motor_angles=t.motor_angles[:, ::-1]), "reverse order"),
+        (lambda t: replace(t, positions=np.roll(t.positions, 1, axis=0)), "1 row(s) too late"),
+        (lambda t: replace(t, positions=np.roll(t.positions, -2, axis=0)), "2 row(s) too early"),
+        (lambda t: _flip(t, 2), "joint 3 turns the other way"),
+        # an arm upside down: the same to the points, wherever its base may be
+        (lambda t: _flip(t, 0), "joint 1 turns the other way"),
+        (lambda t: _flip(t, 0), "Or the zero of joint 2 is 180 degrees off: the points can't tell."),
+        (_exchange, "2 rows seem to have exchanged their points: a: 11, a: 41"),
+        (lambda t: replace(t, orientation=np.roll(t.orientation, -1, axis=1)), "in the order x, y, z, w ("),
+        (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, -1]), "turn the other way"),
+        (
+            lambda t: replace(t, orientation=np.roll(t.orientation * [1, -1, -1, -1], -1, axis=1)),
+            "order x, y, z, w and turn the other way",
+        ),
+        (lambda t: replace(t, orientation=np.roll(t.orientation, 1, axis=1)), "the real part stands in qx"),
+        (lambda t: replace(t, motor_angles=-t.motor_angles), "every joint turns the other way"),
+        (lambda t: replace(t, motor_angles=_relative(t, 1)), "q3 holds the forearm's angle absolute"),
+        (lambda t: replace(t, motor_angles=_relative(t, -1)), "q3 holds the forearm's angle relative to link 2"),
+        (lambda t: replace(t, positions=t.positions * 1e-4), "Are these errors, measured minus nominal?"),
+        (lambda t: replace(t, positions=t.positions / 10), "centimetres that were declared as millimetres"),
+        (lambda t: replace(t, positions=t.positions * [1, 1, 1e-3]), "z looks like metres, where x and y are millim"),
+        (lambda t: replace(t, positions=t.positions * [1e-3, 1, 1]), "x looks like metres, where y and z are millim"),
+        (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
+        (
+            lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
+            "joints 4 and 5 are exchanged",
+        ),
+        (lambda t: _off(t, 1, np.pi / 2), "zero of joint 2 is 90 degrees off. Add -90 degrees to q2"),
+        (lambda t: _off(t, 3, np.pi), "zero of joint 4 is 180 degrees off"),
+        (lambda t: replace(t, orientation=t.orientation * [1, 1, -1, -1]), "mirrored axis x"),
+        (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, 1]), "mirrored axis z"),
+        (
+            lambda t: replace(t, positions=t.positions[np.random.default_rng(0).permutation(len(t))]),
+            "does not explain the points",
+        ),
+    ],
+)
+def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
+    found = problems(mistake(sound), arm)
+    assert len(found) == 1
+    assert words in found[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            lambda dh: dh.model_copy(update={"convention": "modified"}),
+            "are in the standard convention, not the mod",
+        ),
+        (
+            lambda dh: dh.model_copy(
+                update={"joints": [row.model_copy(update={"alpha_deg": -row.alpha_deg}) for row in dh.joints]}
+            ),
+            "every alpha of the D-H rows has the other sign",
+        ),
+        (
+            lambda dh: dh.model_copy(
+                update={"joints": [row.model_copy(update={"a_mm": row.d_mm, "d_mm": row.a_mm}) for row in dh.joints]}
+            ),
+            "a and d of the D-H rows are exchanged. Exchange a_mm and d_mm",
+        ),
+    ],
+)
+def test_a_mistake_in_the_rows_of_robot_yaml_is_named_as_one(change, words, arm, sound):
+    stated = arm.description.model_copy(update={"dh": change(arm.description.dh)})
+    (found,) = problems(sound, build_arm(stated))
+    assert words in found
