@@ -1,5 +1,7 @@
 """Neighbours are those that a tree finds, which is another implementation, however they are spread."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
@@ -19,7 +21,7 @@ SPREADS = {
 @pytest.mark.parametrize("points", SPREADS.values(), ids=SPREADS)
 @pytest.mark.parametrize("most", [0, 50, 10_000])
 def test_neighbours_are_those_that_a_tree_finds(points, most, monkeypatch):
-    monkeypatch.setattr(contents, "MOST_CANDIDATES", most)
+    monkeypatch.setattr(contents, "TABLE", replace(contents.TABLE, candidates=most))
     for reach in (3e-3, 0.01, 0.5):
         expected = {tuple(sorted(pair)) for pair in cKDTree(points).query_pairs(reach)}
         assert {tuple(sorted(pair)) for pair in close_pairs(points, reach).tolist()} == expected

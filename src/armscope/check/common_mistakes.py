@@ -10,24 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from armscope.check.constants import TRIALS
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 
-LARGEST_ROW_SHIFT = 3
-
 PARALLELOGRAM = ("base", "upper arm", "forearm")
 """What the motors up to that of a parallelogram turn."""
-
-MOST_ROWS = 400
-"""Mistakes of a whole table show in a part of it: the trials look at so many rows, spread evenly."""
-
-FITS = 0.05
-"""A table fits an arm if base and tool leave at most this share of the points' spread."""
-
-MOST_STEPS = 12
-"""Steps of refinement per trial: the right one settles in fewer, a wrong one need not settle."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +43,7 @@ def trials(arm: Arm) -> Iterator[Trial]:
         "Flip the sign of one axis, or exchange two, where the points come from (in mapping.yaml: two of `position`).",
         _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),
     )
-    for shift in sorted({*range(-LARGEST_ROW_SHIFT, LARGEST_ROW_SHIFT + 1)} - {0}, key=abs):
+    for shift in sorted({*range(-TRIALS.row_shift, TRIALS.row_shift + 1)} - {0}, key=abs):
         yield Trial(
             "rows out of step",
             f"the measured points come {abs(shift)} row(s) too {'late' if shift < 0 else 'early'} for the joint angles",

@@ -7,17 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.check.constants import TABLE
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
-
-SAME_POSE_RAD = 5e-4
-"""Joint angles within this distance count as the same pose visited again."""
-
-MOST_ROWS_FOR_REPEATS = 50_000
-
-MOST_CANDIDATES = 50
-"""Pairs per point up to which looking at each costs less than the import of a tree."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +148,7 @@ def _one_context(name: str, unit: str, values: Array) -> Context:
 
 
 def _repeats(recordings: Recordings) -> Repeats:
-    looked_at = min(len(recordings), MOST_ROWS_FOR_REPEATS)
+    looked_at = min(len(recordings), TABLE.rows_for_repeats)
     some = recordings.rows(slice(looked_at))
     _, group = np.unique(np.char.add(some.run, np.char.add("\n", some.target)), return_inverse=True)
     rows = np.column_stack([group, some.motor_angles, some.positions])
@@ -163,7 +156,7 @@ def _repeats(recordings: Recordings) -> Repeats:
     copies = looked_at - len(first)
     single = np.sort(first)
     # rows of other runs and targets stand far away, so that they are never neighbours
-    pairs = close_pairs(np.column_stack([group[single] * 100.0, some.motor_angles[single]]), SAME_POSE_RAD)
+    pairs = close_pairs(np.column_stack([group[single] * 100.0, some.motor_angles[single]]), TABLE.same_pose)
     if not len(pairs):
         return Repeats(copies, 0, 0, float("nan"), looked_at)
     from scipy.sparse import coo_array  # these take long to import, and are seldom needed
@@ -193,7 +186,7 @@ def close_pairs(points: Array, reach: float) -> NDArray[np.intp]:
     # rounding must not lose a pair at the very edge
     end = np.searchsorted(along[order], along[order] + reach * (1 + 1e-9) + 1e-12 * np.abs(along).max(), side="right")
     count = end - np.arange(len(points)) - 1
-    if count.sum() > MOST_CANDIDATES * len(points):
+    if count.sum() > TABLE.candidates * len(points):
         from scipy.spatial import cKDTree  # slow to import
 
         return np.asarray(cKDTree(points).query_pairs(reach, output_type="ndarray"))

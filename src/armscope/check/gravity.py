@@ -8,20 +8,11 @@ import numpy as np
 
 from armscope.calibration.model import set_up
 from armscope.calibration.state import State
+from armscope.check.constants import WRONG_GRAVITY
 from armscope.check.suspicion import GRAVITY, Suspicion
 from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-CLEAR_NATS = 30.0
-"""On 79 tables of virtual and real arms whose gravity is stated right, joints that give way against it explain less, or
-as much as those that give way along it; with gravity turned around, 34 of the 79 explain more, and are told."""
-CLEAR_SHARE = 0.1
-"""Of the squares that plain geometry leaves, which is a cause that anybody would see."""
-LITTLE = 0.5
-"""Of it must at most be explained along gravity: poses in which either way explains as much tell no direction."""
-SEEN = 1e-3
-"""Share of a column that plain geometry must leave."""
 
 
 def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Suspicion]:
@@ -41,16 +32,16 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
     left, columns = rows.linearised(state, rows.free("compliance"))
     geometry, giving = columns[:, : -arm.n_motors], columns[:, -arm.n_motors :]
     spanned, size, _ = np.linalg.svd(geometry, full_matrices=False)
-    spanned = spanned[:, size > SEEN * SEEN * size[0]]
+    spanned = spanned[:, size > WRONG_GRAVITY.left_of_column**2 * size[0]]
     beyond = giving - spanned @ (spanned.T @ giving)
-    beyond = beyond[:, np.linalg.norm(beyond, axis=0) > SEEN * np.linalg.norm(giving, axis=0)]
+    beyond = beyond[:, np.linalg.norm(beyond, axis=0) > WRONG_GRAVITY.left_of_column * np.linalg.norm(giving, axis=0)]
     left = left - spanned @ (spanned.T @ left)
     whole, along, against = float(left @ left), _squares_left(beyond, left), _squares_left(-beyond, left)
     numbers = len(left) - spanned.shape[1]
-    if numbers <= arm.n_motors or not against < (1 - CLEAR_SHARE) * whole:
+    if numbers <= arm.n_motors or not against < (1 - WRONG_GRAVITY.clear_share) * whole:
         return []
     gains = [0.5 * numbers * np.log(whole / max(each, np.finfo(float).tiny)) for each in (along, against)]
-    if gains[1] < CLEAR_NATS or gains[0] > LITTLE * gains[1]:
+    if gains[1] < WRONG_GRAVITY.clear_nats or gains[0] > WRONG_GRAVITY.little * gains[1]:
         return []
     statement = (
         "joints seem to give way against gravity: with gravity_m_s2 turned around, joints that give way explain "

@@ -6,13 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from armscope.check.constants import MOTION
 from armscope.check.suspicion import Suspicion
 from armscope.recordings.motions import Motions
-
-BESIDE = 0.05
-"""Of the motor's travel, by which a link's may differ: no drive winds up so far, and no reduction is so wrong."""
-LEAST_TRAVEL = 0.02
-"""rad or m, below which a motor shows nothing."""
 
 
 def links_beside_motors(motions: Motions) -> Iterator[Suspicion]:
@@ -21,19 +17,19 @@ def links_beside_motors(motions: Motions) -> Iterator[Suspicion]:
         return
     for j in np.flatnonzero(np.isfinite(motions.link).all(axis=0)):
         motor, link = motions.q[:, j], motions.link[:, j]
-        if np.ptp(motor) < LEAST_TRAVEL:
+        if np.ptp(motor) < MOTION.link_travel:
             continue
         factor = float(np.polyfit(motor, link, 1)[0])
-        if abs(factor - 1) > BESIDE:
+        if abs(factor - 1) > MOTION.link_factor:
             statement = f"q{j + 1}_link turns {factor:.4g} times as far as q{j + 1}"
             yield Suspicion("problem", statement, _guessed(factor))
 
 
 def _guessed(factor: float) -> str:
-    if abs(factor + 1) < BESIDE:
+    if abs(factor + 1) < MOTION.link_factor:
         return "It counts the other way: turn its sign."
     for unit, of in (("degrees", 180 / np.pi), ("radians", np.pi / 180)):
-        if abs(factor / of - 1) < BESIDE:
+        if abs(factor / of - 1) < MOTION.link_factor:
             return f"It is in {unit}: call the column by that unit."
     other = "the motor's own turns" if abs(factor) < 1 else "another joint's position"
     return f"Both are positions of the joint, behind the gear; is one of them {other}?"

@@ -9,16 +9,11 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.check.constants import MOTION
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.robot.dynamics import MovingArm
-
-ROWS, FEWEST = 300, 60
-"""Rows that a reading is tried on, and the fewest that tell anything."""
-EXPLAINED, CLEARLY = 0.8, 5.0
-"""Share of the torque beyond friction that masses explain, below which a table is read otherwise; and a reading that
-explains so much is told if what it leaves is so many times less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,15 +72,15 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
     Yields:
         A problem, where the masses explain the torque only if the table is read otherwise.
     """
-    if len(samples.q) < FEWEST or not np.any(arm.inertial):
+    if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
         return
-    few = samples.rows(spread_evenly(len(samples.q), ROWS))
+    few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
     stated = explained(few, arm)
-    if stated >= EXPLAINED:
+    if stated >= MOTION.explained:
         return
 
     def better(share: float) -> bool:
-        return share > EXPLAINED and CLEARLY * (1 - share) < 1 - stated
+        return share > MOTION.explained and MOTION.clearly * (1 - share) < 1 - stated
 
     as_degrees = explained(few.scaled(np.pi / 180, ~arm.sliding), arm)
     if better(as_degrees):

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from armscope.check.constants import MOTION
 from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
 from armscope.check.suspicion import Suspicion, verdict_lines
@@ -18,21 +19,6 @@ from armscope.motion.check import channels, doubts_about, refuse_other_joints
 from armscope.motion.samples.timing import mended_rows
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
-
-WRONG_SCALE, LATE_STEPS = 0.05, 1.0
-"""Share by which a recorded speed may differ from the angle's derivative, and by how many samples it may be late."""
-FARTHEST_LAG = 40
-"""Samples over which a speed's lag is looked for."""
-SAME_PATH = 0.01
-"""Of the joints' ranges, from one run's path to another's: nearer than this it is the same path."""
-FAR_TURNS_RAD = 4 * np.pi
-MOST_ROWS = 3000
-COARSE_S, FEWEST = 0.05, 20
-"""Over which positions are differenced, and of how many such samples at least."""
-TOLD = 0.8
-"""Share of a joint's torque, beyond friction, that masses must explain for its sign and size to be judged."""
-OTHER_SIZE, NO_LOAD = 3.0, 30.0
-"""Factor between recorded torque and the masses' from which it is another quantity: of most joints, and of one."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +88,7 @@ def _dead(motions: Motions) -> Iterator[Suspicion]:
 
 def _units(motions: Motions) -> Iterator[Suspicion]:
     reached = np.where(motions.sliding, 0.0, np.abs(motions.q).max(axis=0))
-    far = np.flatnonzero(reached > FAR_TURNS_RAD)
+    far = np.flatnonzero(reached > MOTION.far_turns)
     for j in far:
         statement = f"q{j + 1}_rad reaches {reached[j]:.4g} rad, {reached[j] / (2 * np.pi):.3g} turns"
         # one joint may turn on and on, an arm does not
@@ -121,11 +107,11 @@ def _speeds(motions: Motions) -> Iterator[Suspicion]:
             continue
         scale, late = (float(np.median([each[k] for each in told])) for k in (0, 1))
         name, step = f"dq{j + 1}", float(np.median(np.diff(motions.time)))
-        if abs(scale - 1) > WRONG_SCALE:
-            cure = "It is in degrees a second, perhaps." if abs(scale * np.pi / 180 - 1) < WRONG_SCALE else ""
+        if abs(scale - 1) > MOTION.speed_scale:
+            cure = "It is in degrees a second, perhaps." if abs(scale * np.pi / 180 - 1) < MOTION.speed_scale else ""
             statement = f"{name} is {scale:.4g} times the derivative of q{j + 1}"
             yield Suspicion("problem" if scale < 0 else "hint", statement, cure)
-        if abs(late) > LATE_STEPS:
+        if abs(late) > MOTION.late:
             statement = f"{name} is {abs(late * step) * 1e3:.3g} ms {'later' if late > 0 else 'earlier'} than q{j + 1}"
             yield Suspicion("hint", statement, "Speeds are filtered, often; torques are compared by the angles alone.")
 
@@ -135,17 +121,17 @@ def _speed_of_run(motions: Motions, run: str, joint: int) -> tuple[float, float]
     assert motions.dq is not None
     rows = np.flatnonzero(motions.run == run)
     q, dq = motions.q[rows, joint], motions.dq[rows, joint]
-    if len(rows) < 4 * FARTHEST_LAG or np.ptp(dq) == 0 or len(np.unique(q)) < len(q) // 20:
+    if len(rows) < 4 * MOTION.farthest_lag or np.ptp(dq) == 0 or len(np.unique(q)) < len(q) // 20:
         return None
     slope = np.gradient(q, motions.time[rows])
-    inside = slice(FARTHEST_LAG, len(rows) - FARTHEST_LAG)
-    lags = np.arange(-FARTHEST_LAG, FARTHEST_LAG + 1)
-    shifted = np.array([dq[FARTHEST_LAG + lag : len(rows) - FARTHEST_LAG + lag] for lag in lags])
+    inside = slice(MOTION.farthest_lag, len(rows) - MOTION.farthest_lag)
+    lags = np.arange(-MOTION.farthest_lag, MOTION.farthest_lag + 1)
+    shifted = np.array([dq[MOTION.farthest_lag + lag : len(rows) - MOTION.farthest_lag + lag] for lag in lags])
     fit = shifted @ slope[inside]
     power = np.maximum(np.sum(shifted**2, axis=1), 1e-300)
     best = int(np.argmax(fit**2 / power))
     quality = fit**2 / power / max(float(slope[inside] @ slope[inside]), 1e-300)
-    if quality[best] < 0.5:
+    if quality[best] < MOTION.clear_derivative:
         return None  # too noisy a derivative tells neither
     late = float(lags[best])
     if 0 < best < len(lags) - 1:
@@ -162,21 +148,21 @@ def _same_paths(motions: Motions) -> Iterator[Suspicion]:
     span = np.maximum(np.ptp(motions.q, axis=0), 1e-9)
     paths = {run: motions.q[motions.run == run] / span for run in motions.runs}
     for one, other in combinations(paths, 2):
-        dense = cKDTree(paths[one][spread_evenly(len(paths[one]), MOST_ROWS)])
+        dense = cKDTree(paths[one][spread_evenly(len(paths[one]), MOTION.rows)])
         away = dense.query(paths[other][spread_evenly(len(paths[other]), 300)])[0]
-        if float(np.percentile(away, 90)) < SAME_PATH * np.sqrt(motions.n_motors):
+        if float(np.percentile(away, 90)) < MOTION.same_path * np.sqrt(motions.n_motors):
             statement = f"run {other} repeats the path of run {one}"
             yield Suspicion("hint", statement, "Held out, it tests the noise and not the model: hold out another path.")
 
 
 def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
     """Sign and size of recorded torques against what the stated masses ask for, with friction and a rotor fitted."""
-    few = samples.rows(spread_evenly(len(samples.q), MOST_ROWS))
+    few = samples.rows(spread_evenly(len(samples.q), MOTION.rows))
     rigid = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
     factors: dict[int, float] = {}
     for j, (left, asked) in enumerate(beyond_friction(few, rigid)):
         power = float(asked @ asked)
-        if power > 0 and (asked @ left) ** 2 >= TOLD * power * float(left @ left):
+        if power > 0 and (asked @ left) ** 2 >= MOTION.explained * power * float(left @ left):
             factors[j] = float(asked @ left) / power
     most = float(np.median(np.abs(list(factors.values())))) if factors else 1.0
     for j, factor in factors.items():
@@ -186,10 +172,12 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
             if arm.model.gravity.linear[2] > 0:
                 cure = f"gravity_m_s2 of robot.yaml points up: does the arm hang from a ceiling? If it does: {cure}"
             yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
-        elif not 1 / OTHER_SIZE < factor < OTHER_SIZE:
+        elif not 1 / MOTION.other_size < factor < MOTION.other_size:
             # a load that nobody stated does that to a wrist, and is no mistake of the table
-            far = not 1 / NO_LOAD <= factor <= NO_LOAD or not 1 / NO_LOAD <= most <= NO_LOAD
-            weight: Literal["problem", "hint"] = "problem" if far or not 1 / OTHER_SIZE < most < OTHER_SIZE else "hint"
+            far = not 1 / MOTION.no_load <= factor <= MOTION.no_load or not 1 / MOTION.no_load <= most <= MOTION.no_load
+            weight: Literal["problem", "hint"] = (
+                "problem" if far or not 1 / MOTION.other_size < most < MOTION.other_size else "hint"
+            )
             cure = "Is it the torque before the gear, another unit, or another load than stated?"
             yield Suspicion(weight, f"{name} is {factor:.3g} times what the stated masses ask for", cure)
 
@@ -204,9 +192,9 @@ def _coarse(motions: Motions, run: str) -> tuple[Array, Array, Array, Array]:
     """Positions, derivatives and torques of a run, differenced over a twentieth of a second: to see sign and size."""
     rows = np.flatnonzero(motions.run == run)
     time = motions.time[rows]
-    step = max(int(COARSE_S / float(np.median(np.diff(time)))), 1)
+    step = max(int(MOTION.coarse / float(np.median(np.diff(time)))), 1)
     q, time = motions.q[rows][::step], time[::step]
-    if len(q) < FEWEST:
+    if len(q) < MOTION.samples:
         none = np.empty((0, motions.n_motors))
         return none, none, none, none
     dq = np.gradient(q, time, axis=0)

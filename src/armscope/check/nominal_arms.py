@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
-from armscope.check.common_mistakes import FITS, MOST_ROWS, MOST_STEPS
+from armscope.check.constants import OTHER_ARMS, TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
@@ -16,14 +16,6 @@ from armscope.recordings import Recordings
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.library import nominal_description, nominal_names
 from armscope.verdict.sentences import ANOTHER_MODEL
-
-BETTER = 0.5
-"""Another arm's misfit must be below this share of the stated one's. No constant of either is fitted, so that errors of
-calibration, which both have, do not decide: the nearest of one maker (UR10 and UR10e) lie 7 mm apart, new arms err by
-1 to 3 mm."""
-
-WORTH_A_LOOK = 1.5e-3
-"""Share of the reach below which a misfit needs no other arm: half of what the nearest two in the library differ by."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +46,10 @@ def better_arm(arm: Arm, recordings: Recordings, rms_m: float) -> list[Suspicion
     Returns:
         The hint, or nothing.
     """
-    if rms_m < WORTH_A_LOOK * arm.reach:
+    if rms_m < OTHER_ARMS.worth_a_look * arm.reach:
         return []
     best = next((fit for fit in nominal_fits(recordings) if fit.explains), None)
-    if best is None or best.rms_mm > BETTER * 1e3 * rms_m:
+    if best is None or best.rms_mm > OTHER_ARMS.better * 1e3 * rms_m:
         return []
     statement = (
         f"is this another model of the arm? {best.title} of the library leaves {best.rms_mm:.2g} mm "
@@ -74,7 +66,7 @@ def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
         recordings: the table; of a long one rows are taken evenly.
     """
     usable = np.flatnonzero(np.isfinite(recordings.positions).all(axis=1))
-    some = recordings.rows(usable[spread_evenly(len(usable), MOST_ROWS)] if len(usable) > MOST_ROWS else usable)
+    some = recordings.rows(usable[spread_evenly(len(usable), TRIALS.rows)] if len(usable) > TRIALS.rows else usable)
     points = some.positions - np.array([some.positions[some.run == run].mean(axis=0) for run in some.run])
     spread = rms_distance(points)
     arms = ((name, nominal_description(name)) for name in nominal_names())
@@ -90,5 +82,5 @@ def _joints(description: object) -> int:
 
 def _fit(name: str, arm: Arm, table: Recordings, spread: float) -> NominalFit:
     rows = set_up(arm, table)
-    left = rms_distance(rows.residuals(placed(rows, MOST_STEPS)))
-    return NominalFit(name, arm.name, 1e3 * left, left <= FITS * spread)
+    left = rms_distance(rows.residuals(placed(rows, TRIALS.steps)))
+    return NominalFit(name, arm.name, 1e3 * left, left <= TRIALS.fits * spread)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration.model import SetUp
 from armscope.calibration.state import State
+from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel, ChannelResiduals
@@ -17,9 +18,6 @@ from armscope.measurement.constants import WEIGHTS
 from armscope.measurement.orientations import NOT_THE_TOOLS_RAD
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
-
-CLEARLY_BETTER = 0.3
-"""Another reading must bring the scatter below this share."""
 
 Reading = tuple[str, str, Callable[[Array], Array]]
 """What is wrong, how to mend it, and quaternions (N, 4) read so."""
@@ -105,7 +103,7 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
     spreads = [_tool_spread(expected, reading(quaternions[known]), group) for _, _, reading in READINGS]
     best = int(np.argmin(spreads))
     declared, least = np.degrees(spreads[0]), np.degrees(spreads[best])
-    if best != 0 and spreads[best] < min(CLEARLY_BETTER * spreads[0], NOT_THE_TOOLS_RAD):
+    if best != 0 and spreads[best] < min(TRIALS.clearly_better * spreads[0], NOT_THE_TOOLS_RAD):
         statement, cure, _ = READINGS[best]
         seen = f" (the tool's orientation is usually {declared:.3g} degrees off as declared, {least:.2g} degrees so)"
         return [Suspicion("problem", statement + seen, cure)]

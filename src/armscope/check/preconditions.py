@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from armscope.check.constants import TABLE
 from armscope.check.report import what_forbids
 from armscope.check.suspicion import GRAVITY, Suspicion, refuse_problems
 from armscope.check.suspicions import explanation
@@ -21,13 +22,6 @@ from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import ANOTHER_MODEL
-
-FEWEST_ROWS = 15
-"""Below, frames and a handful of effects take up all there is."""
-TOO_FAR = 0.03
-"""Share of the arm's reach beyond which a residual is no calibration error."""
-FLAT = 1e-3
-SAME_VALUE_ROWS = 4
 
 
 @dataclass(frozen=True)
@@ -107,7 +101,7 @@ def _not_clipped(recordings: Recordings) -> NDArray[np.bool_]:
         values = recordings.positions[:, axis]
         for extreme in (values.min(), values.max()):
             at = values == extreme
-            if at.sum() >= SAME_VALUE_ROWS and moving(recordings.motor_angles[at]).any():
+            if at.sum() >= TABLE.clipped_rows and moving(recordings.motor_angles[at]).any():
                 good &= ~at
     return good
 
@@ -129,9 +123,9 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
         joints = ", ".join(f"joint {j}" for j in still)
         notices.append(Notice("joints that never move", f"{joints}: nothing that follows their angle can be found."))
     for name, values, least in (
-        ("payload_kg", recordings.payload, 1e-6),
-        ("temperature_c", recordings.temperature, 0.2),
-        ("time_s", recordings.time, 1.0),
+        ("payload_kg", recordings.payload, TABLE.payload_varies),
+        ("temperature_c", recordings.temperature, TABLE.temperature_varies),
+        ("time_s", recordings.time, TABLE.time_varies),
     ):
         if values is not None and not varies(values, least):
             notices.append(Notice("constant context", f"{name} hardly varies: what follows it can't be found."))
@@ -139,7 +133,7 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
         text = "No link masses and no recorded torques: compliances are known up to unknown mass moments only."
         notices.append(Notice("no loads", text))
     spread = np.linalg.svd(recordings.positions - recordings.positions.mean(axis=0), compute_uv=False)
-    if len(spread) < 3 or spread[2] < FLAT * spread[0]:
+    if len(spread) < 3 or spread[2] < TABLE.flat * spread[0]:
         notices.append(Notice("poses in one plane", "All tool points lie in one plane: many effects look alike there."))
     return notices
 
@@ -157,7 +151,7 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array, problems: Sequen
         The problem that explains it, or that none does; None where residuals may be calibration errors.
     """
     size = float(np.median(np.linalg.norm(residuals, axis=1))) / np.sqrt(3)
-    if size < TOO_FAR * arm.reach * 1e3:
+    if size < TABLE.too_far * arm.reach * 1e3:
         return None
     start = f"After fitting base and tool the residual is still {size:.0f} mm per axis"
     found = next((each for each in problems if each.kind not in ("check", GRAVITY)), None) or explanation(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.check.constants import QUANTITIES, TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
@@ -11,32 +12,6 @@ from armscope.recordings import Recordings
 from armscope.recordings.resolution import angle_steps, step_in_words
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
-
-COLDEST_C, WARMEST_C = -50.0, 120.0
-"""Where arms are measured; drives and oil are warmer than rooms."""
-
-WARMEST_ROOM_C = 45.0
-"""Makers allow arms to work in rooms of 0 to 45 degrees (data sheets)."""
-
-LONGEST_BETWEEN_ROWS_S = 3600.0
-"""Half of a table's rows come sooner after the one before: a session is a matter of hours."""
-
-HEAVIEST_KG = 2500.0
-"""No arm carries more; nor does one carry more than its own mass."""
-
-FINEST_M, COARSEST_M = 1e-7, 1e-2
-"""Stated uncertainties of instruments that see an arm; less or more stands in another unit."""
-
-FOLLOWS = 0.5
-"""Correlation from which recorded torques are those of gravity."""
-
-MANY_TIMES = 100.0
-"""Mass tables are wrong by less than this factor, units by more."""
-
-SEEN_M = 1e-4
-"""What instruments that see an arm tell apart."""
-
-MOST_ROWS = 400
 
 
 def of_quantities(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
@@ -48,7 +23,7 @@ def of_quantities(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
 
 def _coarse_angles(recordings: Recordings, arm: Arm) -> Suspicion | None:
     step = float(angle_steps(recordings.motor_angles).max())
-    if (most := step / 2 * arm.reach) < SEEN_M:
+    if (most := step / 2 * arm.reach) < QUANTITIES.seen:
         return None
     cure = (
         f"If poses were commanded in such steps, all is well; if they were rounded when they were written down, that "
@@ -62,21 +37,21 @@ def _temperature(recordings: Recordings) -> Suspicion | None:
     if not len(known):
         return None
     statement = f"the temperature reads {known.min():.4g} ... {known.max():.4g} degrees Celsius"
-    if known.min() > WARMEST_ROOM_C and known.max() < WARMEST_C:
+    if known.min() > QUANTITIES.warmest_room and known.max() < QUANTITIES.temperature[1]:
         cure = "No workshop is that warm: is it in Fahrenheit, or of a motor? The structure's is needed."
         return Suspicion("hint", statement, cure)
-    if known.min() > COLDEST_C and known.max() < WARMEST_C:
+    if known.min() > QUANTITIES.temperature[0] and known.max() < QUANTITIES.temperature[1]:
         return None
     return Suspicion("problem", statement, "Is it in kelvin, or does a number stand for no value?")
 
 
 def _payload(recordings: Recordings, arm: Arm | None) -> Suspicion | None:
     known = _known(recordings.payload)
-    own = arm.masses.sum() if arm is not None and arm.has_masses else HEAVIEST_KG
-    most = min(HEAVIEST_KG, float(own))
+    own = arm.masses.sum() if arm is not None and arm.has_masses else QUANTITIES.heaviest
+    most = min(QUANTITIES.heaviest, float(own))
     if not len(known) or known.max() <= most:
         return None
-    of_what = "the arm weighs" if most < HEAVIEST_KG else "any arm carries"
+    of_what = "the arm weighs" if most < QUANTITIES.heaviest else "any arm carries"
     statement = f"the payload is up to {known.max():.4g} kg, more than {of_what} ({most:.4g} kg)"
     return Suspicion("problem", statement, "Is it in grams, or a force?")
 
@@ -86,7 +61,7 @@ def _sigma(recordings: Recordings) -> Suspicion | None:
     if recordings.sigma is None or not len(known):
         return None
     usual = float(np.median(known))
-    if not FINEST_M <= usual <= COARSEST_M and usual > 0:
+    if not QUANTITIES.uncertainty[0] <= usual <= QUANTITIES.uncertainty[1] and usual > 0:
         return Suspicion("problem", f"the stated uncertainty is usually {usual * 1e3:.3g} mm", "Is its unit right?")
     if (known == 0).any():
         rows = int((recordings.sigma == 0).any(axis=1).sum())
@@ -100,7 +75,7 @@ def _time(recordings: Recordings) -> Suspicion | None:
     runs = [recordings.time[recordings.run == run] for run in np.unique(recordings.run)]
     steps = np.concatenate([np.diff(times[np.isfinite(times)]) for times in runs])
     usual = float(np.median(np.abs(steps))) if len(steps) else 0.0
-    if usual > LONGEST_BETWEEN_ROWS_S:
+    if usual > QUANTITIES.between_rows:
         statement = f"a row usually comes {usual / 3600:.3g} hours after the one before"
         return Suspicion("hint", statement, "time_s is in seconds: are these milliseconds?")
     back = int((steps < 0).sum())
@@ -115,14 +90,14 @@ def _torque(recordings: Recordings, arm: Arm | None) -> Suspicion | None:
     if recordings.torque is None or arm is None or not arm.has_masses:
         return None
     rows = np.flatnonzero(np.isfinite(recordings.torque).all(axis=1))
-    rows = rows[spread_evenly(len(rows), MOST_ROWS)] if len(rows) else rows
+    rows = rows[spread_evenly(len(rows), TRIALS.rows)] if len(rows) else rows
     payload = None if recordings.payload is None else np.nan_to_num(recordings.payload[rows])
     pull, torque = gravity_torques(arm, chain(arm, recordings.motor_angles[rows]), payload), recordings.torque[rows]
     both, pulled, seen = np.sum(pull * torque), np.sum(pull**2), np.sum(torque**2)
-    if not len(rows) or pulled == 0 or seen == 0 or abs(both) < FOLLOWS * np.sqrt(pulled * seen):
+    if not len(rows) or pulled == 0 or seen == 0 or abs(both) < QUANTITIES.follows * np.sqrt(pulled * seen):
         return None
     times = both / pulled
-    if not 1 / MANY_TIMES < abs(times) < MANY_TIMES:
+    if not 1 / QUANTITIES.many_times < abs(times) < QUANTITIES.many_times:
         statement = f"the recorded torques are {abs(times):.3g} times what gravity asks for by the arm's masses"
         return Suspicion("problem", statement, "tau1_nm ... are in N m.")
     if times < 0:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.quantities import of_quantities
 from armscope.check.suspicion import GRAVITY, Suspicion, verdict_lines
@@ -15,19 +16,6 @@ from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.sentences import ANOTHER_MODEL
-
-ONE_POINT = 1e-3
-"""Points within so many metres of each other are one point, measured again."""
-
-FLAT = 1e-3
-"""Points whose scatter across some direction is below this share of the largest lie in a plane."""
-
-FAR_RAD = 0.5
-SMALLEST, LARGEST = 0.01, 100.0
-"""Extents (m) of the points of an arm whose joints move that far."""
-
-RADIANS_AS_DEGREES = np.radians(2 * np.pi)
-"""What two pi is taken for."""
 
 NOT_A_DRIVER = ("orientation", "sigma")
 """What may well be the same in every row."""
@@ -119,11 +107,11 @@ def _of_units(contents: Contents) -> list[Suspicion]:
     found = []
     widest = max(motor.high - motor.low for motor in contents.motors)
     for run in contents.runs:
-        if widest > FAR_RAD and run.moved and not SMALLEST < max(run.extent) < LARGEST:
+        if widest > TABLE.far and run.moved and not TABLE.extent[0] < max(run.extent) < TABLE.extent[1]:
             size = f"{max(run.extent) * 1e3:.3g} mm"
             statement = f"the points{_of(run.name)} lie within {size}, though joints move by up to {widest:.2g} rad"
             found.append(Suspicion("hint", statement, "Are the positions in the unit that their columns' names say?"))
-    if 0 < max(max(abs(motor.low), abs(motor.high)) for motor in contents.motors) <= RADIANS_AS_DEGREES:
+    if 0 < max(max(abs(motor.low), abs(motor.high)) for motor in contents.motors) <= TABLE.radians_as_degrees:
         statement = "no joint stands further from zero than 6.3 degrees"
         found.append(Suspicion("hint", statement, "Are the angles radians that were declared as degrees?"))
     return found
@@ -132,10 +120,10 @@ def _of_units(contents: Contents) -> list[Suspicion]:
 def _of_extent(run: RunContents) -> list[Suspicion]:
     """What the extent of a run's points says."""
     extent = np.sort(run.extent)
-    if extent[2] < ONE_POINT:
+    if extent[2] < TABLE.one_point:
         statement = f"all rows{_of(run.name)} are at one point"
         return [Suspicion("hint", statement, "They tell the noise, and nothing about the arm.")]
-    if run.rows > 3 and run.flatness < FLAT:  # three points always do
+    if run.rows > 3 and run.flatness < TABLE.flat:  # three points always do
         statement = f"all points{_of(run.name)} lie in one plane"
         return [Suspicion("hint", statement, "Errors across it can't be seen.")]
     return []

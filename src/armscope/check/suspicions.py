@@ -14,7 +14,8 @@ import numpy as np
 from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
-from armscope.check.common_mistakes import FITS, MOST_ROWS, MOST_STEPS, trials
+from armscope.check.common_mistakes import trials
+from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
 from armscope.check.orientations import orientation_mistakes
@@ -30,25 +31,7 @@ from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.sentences import ANOTHER_MODEL
 
-ROWS_PER_PARAMETER = 2
-"""Measured numbers per frame parameter below which anything fits."""
-
-CLEARLY_BETTER = 0.3
-"""Undoing a mistake must bring the misfit below this share."""
-
-AS_GOOD = 1.05
-"""Mistakes whose undoing leaves this many times the least are as good: some are the same to an arm's kinematics."""
-
-A_POINT = 0.01
-"""Points whose spread is below this share of the arm's are no tool points: an arm misses by less than 1 % of that."""
-
-TOO_COARSE = 10
-"""Times what the nominal arm leaves that a stated uncertainty can't be: noise is part of what is left."""
-
 WRONG_ROBOT = "wrong robot"
-MOST_ROWS_FOR_EXCHANGE = 20_000
-FAR = 10
-"""Rows further off than so many times the usual spread may have exchanged their points."""
 
 
 @dataclass(frozen=True)
@@ -75,17 +58,17 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         return Consistency(float("nan"), _spread(recordings), 0, (wrong,))
     some = _spread_evenly(recordings)
     rows = set_up(arm, some)
-    if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
+    if 3 * len(rows) < TRIALS.rows_per_parameter * rows.free("nominal").sum():
         hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
     if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())
-    state = placed(rows, MOST_STEPS)
+    state = placed(rows, TRIALS.steps)
     misfit = rms_distance(rows.residuals(state))
     spread = max(_spread(some), _predicted_spread(rows, state))
     found: list[Suspicion] = []
     turned: list[Suspicion] = []
-    if _share_left(rows, state) > FITS:
+    if _share_left(rows, state) > TRIALS.fits:
         found += _moved_tools(arm, replace(some, orientation=None), explains=True) or _unexplained(
             arm, recordings, misfit
         )
@@ -106,9 +89,9 @@ def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspic
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:
-    if len(recordings) <= MOST_ROWS:
+    if len(recordings) <= TRIALS.rows:
         return recordings
-    return recordings.rows(spread_evenly(len(recordings), MOST_ROWS))
+    return recordings.rows(spread_evenly(len(recordings), TRIALS.rows))
 
 
 def _spread(recordings: Recordings) -> float:
@@ -139,7 +122,7 @@ def _share_left(rows: SetUp, state: State) -> float:
 def _tried(arm: Arm, table: Recordings) -> tuple[float, float]:
     """Share left and spread (m) of a table, base and tool fitted."""
     rows = set_up(arm, _spread_evenly(table))
-    state = placed(rows, MOST_STEPS)
+    state = placed(rows, TRIALS.steps)
     return _share_left(rows, state), max(_spread(table), _predicted_spread(rows, state))
 
 
@@ -165,21 +148,21 @@ def explanation(arm: Arm, table: Recordings) -> Suspicion:
 
 def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
     rows = set_up(arm, _spread_evenly(of_run))
-    if 3 * len(rows) < ROWS_PER_PARAMETER * rows.free("nominal").sum():
+    if 3 * len(rows) < TRIALS.rows_per_parameter * rows.free("nominal").sum():
         return False
-    return _share_left(rows, placed(rows, MOST_STEPS)) > FITS
+    return _share_left(rows, placed(rows, TRIALS.steps)) > TRIALS.fits
 
 
 def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     share, spread = _tried(arm, table)
     tried = [(_tried(trial.arm(arm), trial.undo(table))[0], trial) for trial in trials(arm)]
     least = min(left for left, _ in tried)
-    if least < min(FITS, CLEARLY_BETTER * share):
-        best, *others = [trial for left, trial in tried if left <= AS_GOOD * least]
+    if least < min(TRIALS.fits, TRIALS.clearly_better * share):
+        best, *others = [trial for left, trial in tried if left <= TRIALS.as_good * least]
         alternatives = " ".join(f"Or {other.statement}: the points can't tell." for other in others)
         return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip(), best.kind)
     of_points = _spread(table)
-    if of_points < A_POINT * spread:
+    if of_points < TRIALS.point * spread:
         statement = f"the points{where} lie within {1e3 * of_points:.2g} mm, though the arm's lie within"
         cure = "Are these errors, measured minus nominal? Points are needed: where the tool was."
         return Suspicion("problem", f"{statement} {1e3 * spread:.0f} mm", cure, WRONG_ROBOT)
@@ -194,15 +177,15 @@ def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
 
 def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     """Pairs or rings of rows whose points fit each other's angles."""
-    some = recordings.rows(slice(0, MOST_ROWS_FOR_EXCHANGE))
+    some = recordings.rows(slice(0, TRIALS.rows_for_exchange))
     rows = set_up(arm, some)
-    state = placed(rows, MOST_STEPS)
+    state = placed(rows, TRIALS.steps)
     residuals = rows.residuals(state)
-    if np.linalg.norm(residuals, axis=1).max() < FAR * scale_of(residuals):
+    if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * scale_of(residuals):
         return []
     residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
     distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
-    far = np.flatnonzero(distance > FAR * usual)
+    far = np.flatnonzero(distance > TRIALS.exchanged * usual)
     if not 2 <= len(far) <= 500:
         return []
     predicted = some.positions[far] - residuals[far]
@@ -231,7 +214,7 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
         return []
     if explains:
         rows = set_up(arm, table, tool_per_run=True)
-        if _share_left(rows, placed(rows, MOST_STEPS)) > FITS:
+        if _share_left(rows, placed(rows, TRIALS.steps)) > TRIALS.fits:
             return []
     statement = f"the tool seems to have moved between runs, {found.apart}"
     return [Suspicion("hint", statement, f"With one of its own per run {found.own_mm:.3g} mm are left: free it there.")]
@@ -240,7 +223,7 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
 def _too_coarse(arm: Arm, misfit: float) -> list[Suspicion]:
     """An uncertainty larger than all that is left would hide every error: most likely it is in another unit."""
     left = misfit / np.sqrt(3)
-    if arm.sigma is None or arm.sigma < TOO_COARSE * left:
+    if arm.sigma is None or arm.sigma < TRIALS.too_coarse * left:
         return []
     statement = (
         f"robot.yaml states an instrument of {1e3 * arm.sigma:.3g} mm, but the nominal arm already meets the points "
@@ -251,7 +234,8 @@ def _too_coarse(arm: Arm, misfit: float) -> list[Suspicion]:
 
 def _outside_limits(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     low, high = arm.limits.T
-    outside = ((recordings.motor_angles < low - 1e-3) | (recordings.motor_angles > high + 1e-3)).sum(axis=0)
+    angles, slack = recordings.motor_angles, TRIALS.limit_slack
+    outside = ((angles < low - slack) | (angles > high + slack)).sum(axis=0)
     return [
         Suspicion("hint", f"joint {motor + 1} is outside its limits in {count} rows", "Are limits and angles in step?")
         for motor, count in enumerate(outside.tolist())

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.check.constants import TABLE
 from armscope.check.orientations import trusted_channels
-from armscope.check.preconditions import FEWEST_ROWS, as_notices, check_table, too_far
+from armscope.check.preconditions import as_notices, check_table, too_far
 from armscope.check.report import what_forbids
 from armscope.core.types import Progress, unheard
 from armscope.diagnosis.constants import LOOP
@@ -168,7 +169,7 @@ def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: 
 
 def _too_few(recordings: Recordings, frames: Sequence[Placed]) -> Notice | None:
     free = sum(len(placed.terms) for placed in frames)
-    if len(recordings) >= FEWEST_ROWS and 3 * len(recordings) > 2 * free:
+    if len(recordings) >= TABLE.rows and 3 * len(recordings) > 2 * free:
         return None
     text = f"{len(recordings)} rows hold {3 * len(recordings)} numbers, {free} of which base and tool take up: too few."
     return Notice("fewer rows than parameters", text)

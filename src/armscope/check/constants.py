@@ -1,0 +1,288 @@
+"""Numbers that decide in this room; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class TrialRules(Constants):
+    """When undoing a mistake that may have been made is believed to have undone one."""
+
+    rows: int = constant(
+        400,
+        "rows that are looked at, spread evenly",
+        "judgement: mistakes of a whole table show in a part of it",
+        unit="rows",
+    )
+    rows_per_parameter: int = constant(
+        2, "measured numbers per number of the frames, below which anything fits", "judgement: twice what is fitted"
+    )
+    steps: int = constant(
+        12,
+        "of refinement per trial",
+        "judgement: the right one settles in fewer, a wrong one need not settle",
+        unit="steps",
+    )
+    fits: float = constant(
+        0.05,
+        "share of the points' spread that base and tool leave at most where a table fits an arm",
+        "judgement: several times what arms of usual tolerances leave",
+    )
+    clearly_better: float = constant(
+        0.3,
+        "share of the misfit, or of orientations' scatter, that another reading must at most leave",
+        "judgement: no chance of a few rows does so much",
+    )
+    as_good: float = constant(
+        1.05,
+        "times the least misfit up to which other readings are told as well",
+        "judgement: some mistakes are the same to an arm's kinematics",
+    )
+    row_shift: int = constant(3, "rows by which points may be out of step", "judgement: usual slips", unit="rows")
+    point: float = constant(
+        0.01,
+        "share of the arm's spread below which points are no tool points",
+        "judgement: an arm misses by less than 1 % of its own",
+    )
+    too_coarse: float = constant(
+        10,
+        "times what the nominal arm leaves that a stated uncertainty can't be",
+        "judgement: noise is part of what is left",
+    )
+    exchanged: float = constant(
+        10,
+        "times the usual misfit beyond which two rows may have exchanged their points",
+        "judgement: far beyond what calibration errors do",
+    )
+    rows_for_exchange: int = constant(
+        20_000, "rows among which exchanged ones are looked for", "judgement: time", unit="rows"
+    )
+    limit_slack: float = constant(
+        1e-3,
+        "beyond a joint's limit that still counts as at it",
+        "judgement: what rounding and control leave",
+        unit="rad",
+    )
+
+
+@dataclass(frozen=True)
+class OtherArms(Constants):
+    """When an arm of the library is told in place of the stated one."""
+
+    better: float = constant(
+        0.5,
+        "share of the stated arm's misfit that another's must stay below",
+        "measured: uncalibrated, the nearest of one maker (UR10 and UR10e) lie 7 mm apart, new arms err by 1 to 3 mm",
+    )
+    worth_a_look: float = constant(
+        1.5e-3,
+        "share of the reach below which a misfit needs no other arm",
+        "measured: half of what the nearest two in the library differ by",
+    )
+
+
+@dataclass(frozen=True)
+class TableRules(Constants):
+    """What a table holds, and what is too little."""
+
+    rows: int = constant(
+        15,
+        "fewest that a diagnosis starts on",
+        "judgement: below, frames and a handful of effects take up all there is",
+        unit="rows",
+    )
+    too_far: float = constant(
+        0.03, "share of the reach beyond which a residual is no calibration error", "judgement: ten times a bad arm's"
+    )
+    one_point: float = constant(
+        1e-3, "within which points are one, measured again", "judgement: less than any motion of an arm", unit="m"
+    )
+    flat: float = constant(
+        1e-3,
+        "scatter across a plane as a share of the largest, below which points lie in it",
+        "judgement: what an arm's own errors bring out of a plane",
+    )
+    clipped_rows: int = constant(
+        4, "that share the very largest coordinate though joints move", "judgement: no chance", unit="rows"
+    )
+    same_pose: float = constant(
+        5e-4,
+        "between joint angles of one pose that is visited again",
+        "judgement: some times an arm's repeatability",
+        unit="rad",
+    )
+    rows_for_repeats: int = constant(
+        50_000, "rows among which repeated poses are looked for", "judgement: time", unit="rows"
+    )
+    candidates: int = constant(
+        50, "pairs per point up to which each is looked at", "judgement: costs less than the import of a tree"
+    )
+    far: float = constant(
+        0.5, "by which joints must move for the points' extent to be judged", "judgement: half a radian", unit="rad"
+    )
+    extent: tuple[float, float] = constant(
+        (0.01, 100.0),
+        "between which points of an arm extend whose joints move that far",
+        "judgement: from the smallest arms to the largest, with room",
+        unit="m",
+    )
+    radians_as_degrees: float = constant(
+        float(np.radians(2 * np.pi)),
+        "up to which all joints stay where radians were declared as degrees",
+        "derived: two pi, taken for degrees",
+        unit="rad",
+    )
+    payload_varies: float = constant(
+        1e-6, "from which a payload varies", "judgement: anything above rounding", unit="kg"
+    )
+    temperature_varies: float = constant(
+        0.2, "from which a temperature varies", "judgement: what a sensor tells apart", unit="K"
+    )
+    time_varies: float = constant(1.0, "from which time varies", "judgement: less than any session", unit="s")
+
+
+@dataclass(frozen=True)
+class Quantities(Constants):
+    """Between which sizes what is recorded beside angles and points stands in its unit."""
+
+    temperature: tuple[float, float] = constant(
+        (-50.0, 120.0),
+        "lowest and highest recorded temperature",
+        "judgement: drives and oil are warmer than rooms",
+        unit="degrees C",
+    )
+    warmest_room: float = constant(
+        45.0,
+        "highest temperature of a room",
+        "convention: makers allow arms to work in rooms of 0 to 45 degrees (data sheets)",
+        unit="degrees C",
+    )
+    between_rows: float = constant(
+        3600.0,
+        "within which half of a table's rows come after the one before",
+        "judgement: a session is a matter of hours",
+        unit="s",
+    )
+    heaviest: float = constant(
+        2500.0, "largest payload of any arm", "judgement: no arm carries more; nor more than its own mass", unit="kg"
+    )
+    uncertainty: tuple[float, float] = constant(
+        (1e-7, 1e-2),
+        "stated uncertainty of instruments that see an arm",
+        "judgement: less or more stands in another unit",
+        unit="m",
+    )
+    seen: float = constant(1e-4, "what instruments that see an arm tell apart", "judgement: some 0.1 mm", unit="m")
+    follows: float = constant(
+        0.5,
+        "correlation from which recorded torques are those of gravity",
+        "judgement: friction and motion scatter about it",
+    )
+    many_times: float = constant(
+        100.0, "between torques and gravity's", "judgement: mass tables are wrong by less, units by more"
+    )
+
+
+@dataclass(frozen=True)
+class WrongGravity(Constants):
+    """When stated gravity points the wrong way."""
+
+    clear_nats: float = constant(
+        30.0,
+        "that joints giving way against gravity must explain",
+        "measured: on 79 tables of virtual and real arms whose gravity is stated right none does; with gravity turned "
+        "around 34 of them do, and are told",
+        unit="nats",
+    )
+    clear_share: float = constant(
+        0.1,
+        "of the squares that plain geometry leaves, which that must explain",
+        "judgement: a cause that anybody would see",
+    )
+    little: float = constant(
+        0.5,
+        "of it that may at most be explained along gravity",
+        "judgement: poses in which either way explains as much tell no direction",
+    )
+    left_of_column: float = constant(
+        1e-3, "share of a column that plain geometry must leave", "judgement: rounding is far below"
+    )
+
+
+@dataclass(frozen=True)
+class MotionRules(Constants):
+    """What is odd in a table of an arm in motion."""
+
+    speed_scale: float = constant(
+        0.05,
+        "share by which a recorded speed may differ from the angle's derivative",
+        "judgement: units differ by far more, filters by less",
+    )
+    late: float = constant(
+        1.0, "that a recorded speed may be late", "judgement: a backward difference is late by half", unit="samples"
+    )
+    farthest_lag: int = constant(40, "over which a speed's lag is looked for", "judgement: time", unit="samples")
+    clear_derivative: float = constant(
+        0.5,
+        "share of the derivative's power that a recorded speed must follow",
+        "judgement: too noisy a derivative tells neither scale nor lag",
+    )
+    same_path: float = constant(
+        0.01,
+        "of the joints' ranges, nearer than which one run's path is another's",
+        "judgement: above what control leaves, below another path",
+    )
+    far_turns: float = constant(
+        4 * np.pi, "beyond which an angle may be in degrees", "judgement: two turns; most joints have less", unit="rad"
+    )
+    rows: int = constant(3000, "that are looked at, spread evenly", "judgement: time", unit="rows")
+    coarse: float = constant(
+        0.05, "over which positions are differenced", "judgement: sign and size show, noise does not", unit="s"
+    )
+    samples: int = constant(20, "fewest such samples of a run", "judgement: fewer tell nothing", unit="samples")
+    explained: float = constant(
+        0.8,
+        "share of a joint's torque, beyond friction, that masses must explain for its sign, size, unit or order to "
+        "be judged",
+        "judgement: where they explain less the rest may be anything",
+    )
+    other_size: float = constant(
+        3.0,
+        "times the masses' torque, from which most joints' is another quantity",
+        "judgement: masses are known better",
+    )
+    no_load: float = constant(
+        30.0,
+        "times the masses' torque, from which one joint's is another quantity",
+        "judgement: ten times that of most",
+    )
+    reading_rows: int = constant(300, "that other units and orders are tried on", "judgement: time", unit="rows")
+    reading_samples: int = constant(
+        60, "fewest samples on which they are tried", "judgement: fewer tell nothing", unit="samples"
+    )
+    clearly: float = constant(
+        5.0,
+        "times less than as stated that another reading must leave",
+        "judgement: no chance of a few rows does so much",
+    )
+    link_factor: float = constant(
+        0.05,
+        "of the motor's travel, by which a link's may differ",
+        "judgement: no drive winds up so far, and no reduction is so wrong",
+    )
+    link_travel: float = constant(
+        0.02, "travel of a motor below which its link shows nothing", "judgement: about a degree", unit="rad or m"
+    )
+
+
+TRIALS = TrialRules()
+OTHER_ARMS = OtherArms()
+TABLE = TableRules()
+QUANTITIES = Quantities()
+WRONG_GRAVITY = WrongGravity()
+MOTION = MotionRules()
