@@ -92,7 +92,10 @@ def cross_validate(
         return HeldOut(float("nan"), float("nan")), ()
     sets, noise = _steps(best, order), Search.on(problem).empty().noise
     own_values = fitted_values(problem, _readings(problem, sets, best, noise))
-    values = {fold: _values_without(fold, problem, blocks, split, best, sets) for fold in folds}
+    whole, values = total(blocks), {}
+    for fold in folds:
+        trained = problem.with_equations(whole - _sums_of(fold, blocks, split))
+        values[fold] = _values_without(trained, best, sets, noise)
     some = spread_evenly(len(split.of_row), FOLDING.judged_rows)
     split, rows = replace(split, of_row=split.of_row[some]), rows.some(some)
     errors, own = _held_out_errors(problem, blocks, split, rows, values), rows.residuals(own_values)
@@ -119,19 +122,15 @@ def cross_validate(
     return told, tuple(WaterfallStep(label, float(f), float(h), float(s)) for label, f, h, s in steps)
 
 
+def _sums_of(fold: int, blocks: Sequence[NormalEquations], split: RowSplit) -> NormalEquations:
+    return total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
+
+
 def _values_without(
-    fold: int,
-    problem: Problem,
-    blocks: Sequence[NormalEquations],
-    split: RowSplit,
-    best: Hypothesis,
-    sets: Sequence[tuple[SelectedEffect, ...]],
+    trained: Problem, best: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]], noise: float
 ) -> Array:
     """What is fitted without a fold's rows: by every step of the waterfall, and by the selection repeated there."""
-    held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
-    trained = problem.with_equations(total(blocks) - held)
-    noise = Search.on(problem).empty().noise
-    return fitted_values(problem, [*_readings(trained, sets, best, noise), _chosen_again(trained, best)])
+    return fitted_values(trained, [*_readings(trained, sets, best, noise), _chosen_again(trained, best)])
 
 
 def _place_by_points(
@@ -188,7 +187,7 @@ def _held_out_errors(
         return errors
     whole = total(blocks)
     for fold in folds:
-        held = total([blocks[int(k)] for k in np.flatnonzero(split.fold == fold)])
+        held = _sums_of(fold, blocks, split)
         frames = problem.space.frames
         seen = np.diag(whole.G)[frames]
         own = frames[seen - np.diag(held.G)[frames] < 1e-9 * np.maximum(seen, 1e-12)]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from armscope.core.location import Location
-from armscope.core.types import Indices
+from armscope.core.types import Array, Indices
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, scores_given
 from armscope.fitting.column_blocks import active_effects
@@ -28,20 +28,21 @@ BUILDS = {"base": base_shift, "tool": tool_shift}
 
 def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
     """The likeliest moment at which base, tool and each joint's zero jumped, if promising, given each hypothesis."""
-    zeros = [f"joint {j}" for j in moving_joints(context.recordings)]
+    zeros, beside = [f"joint {j}" for j in moving_joints(context.recordings)], ModelRows(context, columns_of(given))
     for locations in (["base"], ["tool"], zeros):
-        yield from _jumps_at(context, given, locations)
+        yield from _jumps_at(beside, given, locations)
 
 
-def _jumps_at(context: ScanContext, given: Sequence[Hypothesis], locations: Sequence[str]) -> Iterator[Placed]:
+def _jumps_at(beside: ModelRows, given: Sequence[Hypothesis], locations: Sequence[str]) -> Iterator[Placed]:
     """The same at some locations, any of which may have jumped: all pay for all of their moments."""
-    pieces, inside = list(pieces_of(context.recordings)), columns_of(given)
+    context, inside = beside.context, beside.inside
+    pieces = list(pieces_of(context.recordings))
     tried = len(locations) * sum(len(cuts) for _, cuts in pieces)
     builds = {location: _jump_of(context, location) for location in locations}
     best: dict[tuple[str, int], tuple[float, int]] = {}
     for rows, cuts in pieces:
         terms = {location: build(int(rows[0]), 1).terms for location, build in builds.items()}
-        sums = step_sums(context, inside, rows, cuts, [each for of_one in terms.values() for each in of_one])
+        sums = step_sums(beside, rows, cuts, [each for of_one in terms.values() for each in of_one])
         start = 0
         for location in locations:
             own = slice(start, start := start + len(terms[location]))
@@ -85,7 +86,7 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
     for rows, cuts in pieces_of(recordings):
         if str(recordings.run[rows[0]]) != run:
             continue
-        sums = step_sums(context, without.columns, rows, cuts, build(int(rows[0]), 1).terms)
+        sums = step_sums(ModelRows(context, without.columns), rows, cuts, build(int(rows[0]), 1).terms)
         scores = block_scores(context.problem, without, sums)
         likely = np.exp(scores - scores.max())
         at = rows[cuts]
@@ -114,14 +115,44 @@ def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
             )
 
 
-def step_sums(
-    context: ScanContext, inside: Indices, rows: Indices, cuts: Indices, terms: Sequence[Term]
-) -> ColumnBlocks:
-    """Sums over the rows behind each cut, and over those of the later runs in which the step holds.
+class ModelRows:
+    """What steps are multiplied with: some of the model's columns, and the response.
+
+    It is computed once for all that may have jumped in the same rows.
 
     Args:
         context: the rows.
-        inside: columns of the model against which the steps' are multiplied.
+        inside: (k,) the columns.
+    """
+
+    def __init__(self, context: ScanContext, inside: Indices) -> None:
+        self.context, self.inside = context, inside
+        self._known: dict[bytes, list[tuple[Indices, WhitenedPosture, Array, Array]]] = {}
+
+    def on(self, rows: Indices) -> list[tuple[Indices, WhitenedPosture, Array, Array]]:
+        """Chunk by chunk: which of the rows, how all channels see them, response (n, c) and columns (n, c, k)."""
+        if rows.tobytes() not in self._known:
+            self._known[rows.tobytes()] = list(self._made(rows))
+        return self._known[rows.tobytes()]
+
+    def _made(self, rows: Indices) -> Iterator[tuple[Indices, WhitenedPosture, Array, Array]]:
+        context, layout = self.context, self.context.space.layout
+        terms = [layout.terms[i] for i in self.inside]
+        values, active, present = active_effects(layout, context.model)
+        for part, posture in linearised(context.recordings.rows(rows)).chunks(context.model):
+            whitener = context.weights.whitener(rows[part])
+            seen, y = WhitenedPosture(posture, whitener), whitener.response(context.model, posture)
+            if present:
+                # the response before any effect
+                y = y + (columns(seen, present) @ values[active]).reshape(y.shape)
+            yield part, seen, y, columns(seen, terms).reshape(*y.shape, -1)
+
+
+def step_sums(beside: ModelRows, rows: Indices, cuts: Indices, terms: Sequence[Term]) -> ColumnBlocks:
+    """Sums over the rows behind each cut, and over those of the later runs in which the step holds.
+
+    Args:
+        beside: the model with whose columns the steps' are multiplied.
         rows: of a run, in order.
         cuts: positions in that order.
         terms: of the step, wherever it begins.
@@ -130,19 +161,13 @@ def step_sums(
         One block per cut.
     """
     _, _, *later = terms[0].products[0].driver.arguments
-    rows = np.concatenate([rows, np.flatnonzero(np.isin(context.recordings.run, [str(each) for each in later]))])
-    c, k = len(terms), len(inside)
-    model_terms = [context.space.layout.terms[i] for i in inside]
-    values, active, present = active_effects(context.space.layout, context.model)
+    run = beside.context.recordings.run
+    rows = np.concatenate([rows, np.flatnonzero(np.isin(run, [str(each) for each in later]))])
+    c, k = len(terms), len(beside.inside)
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
-    for part, posture in linearised(context.recordings.rows(rows)).chunks(context.model):
-        whitener = context.weights.whitener(rows[part])
-        seen, y = WhitenedPosture(posture, whitener), whitener.response(context.model, posture)
-        if present:
-            # the response before any effect
-            y = y + (columns(seen, present) @ values[active]).reshape(y.shape)
-        X, E = (columns(seen, wanted).reshape(*y.shape, -1) for wanted in (model_terms, terms))
+    for part, seen, y, X in beside.on(rows):
+        E = columns(seen, terms).reshape(*y.shape, -1)
         starts = np.flatnonzero(np.diff(segment[part], prepend=-1))
         for total, products in (
             (own, np.swapaxes(E, 1, 2) @ E),

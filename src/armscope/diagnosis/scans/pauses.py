@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.diagnosis.scans.change_points import pieces_of, step_sums
+from armscope.diagnosis.scans.change_points import ModelRows, pieces_of, step_sums
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.inference.additions import unscaled_factor
@@ -44,7 +44,7 @@ def pauses(context: ScanContext, drifting: Hypothesis, drift: int) -> Iterator[P
         run = str(recordings.run[rows[0]])
         earlier, later = context.runs_around("base", run)
         step = base_shift(recordings, int(rows[0]), 1, later).terms
-        sums = step_sums(context, drifting.columns, rows, cuts, step)
+        sums = step_sums(ModelRows(context, drifting.columns), rows, cuts, step)
         V = solve_lower(factor, (sums.cross @ way).T)
         alone = np.einsum("mij,i,j->m", sums.own, way, way)
         # two steps have the rows behind the later one in common
