@@ -133,7 +133,8 @@ def _predicted_spread(rows: SetUp, state: State) -> float:
 
 def explanation(arm: Arm, table: Recordings) -> Suspicion:
     """Why the arm does not explain the points; where runs don't share the fault, of those that have it."""
-    # what no trial looks at need not be copied in each
+    # what no trial looks at need not be copied or computed in each
+    arm = replace(arm, masses=np.zeros_like(arm.masses))
     unused: dict[str, Any] = dict.fromkeys(
         ("orientation", "time", "temperature", "payload", "approach", "speed", "torque", "sigma", "extra")
     )

@@ -102,16 +102,18 @@ def diagnose(
     arm, (table,) = arm_and_tables(robot, [recordings], priors, arm_type)
 
     from armscope.check.preconditions import refuse_unusable
+
+    if run or first_id is not None:
+        table = table.of_runs(run or (), first_id)
+    if not anyway:
+        refuse_unusable(arm, table)
+
     from armscope.compensation.physical import FILE as DOMAIN
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
 
     writable(output, DOMAIN)
-    if run or first_id is not None:
-        table = table.of_runs(run or (), first_id)
-    if not anyway:
-        refuse_unusable(arm, table)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)

@@ -10,3 +10,9 @@ from armscope.core.types import Indices
 def spread_evenly(count: int, most: int) -> Indices:
     """(n,) at most ``most`` of the numbers 0 ... count - 1, ascending, first and last among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).astype(np.intp))
+
+
+def in_one_stretch(numbers: Indices) -> slice | Indices:
+    """Ascending numbers as a slice, if they follow one another: what it takes need not be copied."""
+    first, last = int(numbers[0]), int(numbers[-1])
+    return slice(first, last + 1) if last - first + 1 == len(numbers) else numbers

@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from armscope.core.sampling import in_one_stretch
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import StructuredDesign, structured_design
 from armscope.fitting.linearisation import Chunks, Measured, linearised
@@ -53,7 +53,7 @@ def normal_equations_by_block(
             y = whitener.response(model, posture).T + seen.matvec(current)
             numbers, inside = weights.numbers(chunk), blocks[chunk]
             for block in np.unique(inside):
-                at = _where(inside == block)
+                at = in_one_stretch(np.flatnonzero(inside == block))
                 sums.setdefault(int(block), _Sums.of(p)).add(seen.at(at), y[:, at], float(numbers[at].sum()))
         return sums
 
@@ -96,9 +96,3 @@ class _Sums:
 
     def equations(self, G: Array, back: Indices) -> NormalEquations:
         return NormalEquations(G, self.b[back], self.yy, self.n)
-
-
-def _where(inside: NDArray[np.bool_]) -> slice | Indices:
-    """Where a mask holds: as a slice, if it holds in one stretch."""
-    at = np.flatnonzero(inside)
-    return slice(int(at[0]), int(at[-1]) + 1) if at[-1] - at[0] + 1 == len(at) else at

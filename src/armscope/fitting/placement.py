@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.rotations import cross_matrices, turned_by
+from armscope.core.sampling import in_one_stretch
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
@@ -170,37 +171,39 @@ class _Placement(NonlinearProblem[Frames, Array]):
     def __init__(self, poses: FlangePoses, weigh: Callable[[Array], Array]) -> None:
         self.poses, self.weigh = poses, weigh
         self.weights = np.ones(len(poses.base))
+        self._last: tuple[Frames, Array] | None = None
 
     def residual(self, state: Frames) -> Array:
         base = self.poses.base
         back = np.swapaxes(state.rotations, 1, 2)[base]
         seen = np.einsum("nij,nj->ni", back, self.poses.measured - state.translations[base])
-        return np.asarray(seen - self.poses.points(state.tools))
+        self._last = state, self.poses.points(state.tools)
+        return np.asarray(seen - self._last[1])
 
     def quadratic(self, state: Frames, residual: Array) -> Quadratic:
         self.weights = self.weigh(residual)
-        poses, points = self.poses, self.poses.points(state.tools)
+        poses, last = self.poses, self._last
+        points = last[1] if last is not None and last[0] is state else poses.points(state.tools)
         n_bases, n_tools = len(state.rotations), len(state.tools)
         right = np.zeros(6 * n_bases + 3 * n_tools)
         matrix = np.zeros((len(right), len(right)))
         for base, tool, rows in self.together:
             at = np.concatenate([6 * base + np.arange(6), 6 * n_bases + 3 * tool + np.arange(3)])
-            one = np.zeros(len(rows), dtype=np.intp)
-            X = frame_columns(points[rows], poses.turned[rows], one, one, (1, 1)).reshape(3 * len(rows), -1)
+            X = _columns_of_one_frame(points[rows], poses.turned[rows]).reshape(-1, len(at))
             weighted = X * np.repeat(self.weights[rows], 3)[:, None]
             matrix[np.ix_(at, at)] += weighted.T @ X
             right[at] += weighted.T @ residual[rows].reshape(-1)
         return Quadratic(matrix, right, np.zeros(len(right)))
 
     @functools.cached_property
-    def together(self) -> list[tuple[int, int, Indices]]:
+    def together(self) -> list[tuple[int, int, slice | Indices]]:
         """(base, tool, rows) of rows whose columns are their base's and their tool's alone, some at a time."""
         base, tool = self.poses.base, self.poses.tool
         pair = base * (int(tool.max(initial=0)) + 1) + tool
         order = np.argsort(pair, kind="stable")
         kinds = np.split(order, np.flatnonzero(np.diff(pair[order])) + 1) if len(order) else []
         return [
-            (int(base[rows[0]]), int(tool[rows[0]]), rows[start : start + STEPS.chunk_rows])
+            (int(base[rows[0]]), int(tool[rows[0]]), in_one_stretch(rows[start : start + STEPS.chunk_rows]))
             for rows in kinds
             for start in range(0, len(rows), STEPS.chunk_rows)
         ]
