@@ -53,7 +53,9 @@ HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
     [
         (cause("torque_delay", Parameter("delay", "s", -0.002, 1e-4)), "2.00 ± 0.20 ms too early"),
         (cause("torque_delay", Parameter("delay", "s", 0.002, 1e-4)), "2.00 ± 0.20 ms too late"),
-        (cause("torque_delay", Parameter("delay", "s", 0.002, 3e-3)), "beside its motion in time, by +2.0 ± 5.9 ms"),
+        (cause("torque_delay", Parameter("delay", "s", 0.002, 3e-3)), "torque_delay, whose size is not determined"),
+        (cause("link_mass", Parameter("mass", "kg", -4.31, 2.04)), "link_mass, whose size is not determined"),
+        (cause("link_mass", Parameter("mass", "kg", -4.31, 1.0)), "4.3 ± 2.0 kg lighter than stated"),
         (cause("motor_constant", Parameter("gain", "", 0.085, 0.01)), "joint 4 is 8.5 ± 2.0 % too large"),
         (cause("torque_offset", Parameter("offset", "N m", -0.2, 0.01)), "reads 0.200 ± 0.020 N m too low"),
         (cause("asymmetric_friction", Parameter("viscous_difference", "N m s/rad", -3, 0.1)), "lower forward"),
@@ -100,6 +102,12 @@ def test_a_delay_and_an_offset_are_cured_against_their_signs() -> None:
     late, low = Parameter("delay", "s", 0.01, 1e-3), Parameter("offset", "N m", -0.2, 0.01)
     assert "earlier" in cure(placed_at(catalogue.DELAY, late), (late,), robot())
     assert "offset, −0.200 ± 0.020 N m, from" in cure(placed_at(catalogue.OFFSET, low), (low,), robot())
+
+
+def test_a_number_that_is_not_determined_stands_in_no_cure() -> None:
+    for error, told in ((0.01, True), (0.11, False)):
+        gain = Parameter("gain", "", 0.25, error)
+        assert bool(re.search(r"\d", cure(placed_at(catalogue.GAIN, gain), (gain,), robot()))) is told
 
 
 def test_the_gravity_that_is_told_is_that_of_the_leaning_base() -> None:

@@ -101,8 +101,6 @@ def asymmetric_clause(cause: FoundCause, numbers: Numbers) -> str:
 def delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Torque recorded late, or early."""
     delay = numbers["delay"]
-    if _open(delay):
-        return f"the torque of {cause.location} lies beside its motion in time, by {amount(delay, sign=True)}"
     side = "late" if delay.value > 0 else "early"
     return f"the torque of {cause.location} was recorded {amount(delay)} too {side}"
 

@@ -11,7 +11,7 @@ from armscope.motion.fitting.consistency import PARTS, PathAgreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
-from armscope.motion.summary.constants import PLAUSIBLE
+from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import INTERVAL, Parameter
 
@@ -39,13 +39,25 @@ def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement, param
         )
     if may_be_nothing(parameters):
         told.append("Its 95 % interval holds zero: which way it goes is open. Change nothing for it yet.")
+    elif not determined(parameters):
+        told.append("Its size is not determined: the 95 % interval is nearly as wide. Record other paths.")
     return " ".join([*told, *too_loose(swing_hz(selected, number))])
 
 
 def may_be_nothing(parameters: Sequence[Parameter]) -> bool:
     """Whether the intervals of all numbers that were fitted hold zero."""
+    return _all_within(parameters, 1.0)
+
+
+def determined(parameters: Sequence[Parameter]) -> bool:
+    """Whether a number that was fitted, if there is any, is clearly larger than half its interval."""
+    return not _all_within(parameters, NAMING.determined)
+
+
+def _all_within(parameters: Sequence[Parameter], share: float) -> bool:
+    """Whether of all numbers that were fitted the interval reaches beyond that share of them."""
     fitted = [each for each in parameters if np.isfinite(each.stderr)]
-    return bool(fitted) and all(abs(each.value) < INTERVAL * each.stderr for each in fitted)
+    return bool(fitted) and all(share * abs(each.value) < INTERVAL * each.stderr for each in fitted)
 
 
 def too_loose(swing: float | None) -> list[str]:

@@ -9,13 +9,14 @@ from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.clauses import rms_of
 from armscope.motion.library.laws import Law
 from armscope.motion.library.remedies import Fitted
+from armscope.motion.summary.doubts import determined
 from armscope.motion.verdict import FoundCause
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import Parameter
 
 
 def clause(cause: FoundCause) -> str:
-    """Who does what, by how much: one cause in a sentence.
+    """Who does what, by how much: one cause in a sentence; without the number where it is not determined.
 
     Args:
         cause: with its parameters.
@@ -26,6 +27,8 @@ def clause(cause: FoundCause) -> str:
     known = cause_named(cause.effect)
     say = known.clause if known else None
     numbers = {parameter.name: parameter for parameter in cause.parameters}
+    if not (cause.nameless or determined(cause.parameters)):
+        return f"{cause.title}, whose size is not determined"
     told = say(cause, numbers) if say else f"{cause.title} ({rms_of(cause)})"
     _, _, run = cause.title.partition(" in run ")
     return f"in run {run} {told}" if run else told
@@ -40,8 +43,10 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
         arm: as stated.
 
     Returns:
-        A sentence or two; the cause's own words where it is a curve or a wave, which model.yaml holds.
+        A sentence or two; the cause's own words where its numbers are not determined, or those of a curve or a wave,
+        which model.yaml holds.
     """
     say, own = placed.cause.remedy, placed.cause.cure
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
-    return say(Fitted(own, tuple(parameters), arm, of_law)) if say else own
+    sure = say if determined(parameters) else None
+    return sure(Fitted(own, tuple(parameters), arm, of_law)) if sure else own
