@@ -210,7 +210,7 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
     Args:
         explains: only where tools of their own explain the points.
     """
-    found = exchanged_tool(fit_frames(arm, table), table)
+    found = exchanged_tool(fit_frames(arm, table), table) if len(np.unique(table.run)) > 1 else None
     if found is None:
         return []
     if explains:

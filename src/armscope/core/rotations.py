@@ -6,19 +6,20 @@ import numpy as np
 
 from armscope.core.types import Array
 
+IDENTITY = np.eye(3)
 SMALL_TURN = 1e-4
 """Below it (rad) the series of sin(a)/a and (1 - cos(a))/a^2 are exact to all digits after two terms."""
 
 
 def turned_by(vectors: Array) -> Array:
     """(..., 3, 3) rotation matrices of rotation vectors (..., 3), rad (Rodrigues 1840)."""
-    angle = np.linalg.norm(vectors, axis=-1)[..., None, None]
+    angle = np.sqrt((vectors * vectors).sum(axis=-1))[..., None, None]
     small = angle < SMALL_TURN
     safe = np.where(small, 1.0, angle)
     first = np.where(small, 1 - angle**2 / 6, np.sin(safe) / safe)
     second = np.where(small, 0.5 - angle**2 / 24, 2 * (np.sin(safe / 2) / safe) ** 2)
     across = cross_matrices(vectors)
-    return np.asarray(np.eye(3) + first * across + second * (across @ across))
+    return np.asarray(IDENTITY + first * across + second * (across @ across))
 
 
 def cross_matrices(vectors: Array) -> Array:

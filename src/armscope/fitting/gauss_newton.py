@@ -62,7 +62,8 @@ class Quadratic:
         if damping == 0 or not len(self.right):
             return self.values - self.present
         scale = self._scale
-        scaled = self.matrix * np.outer(scale, scale) + np.diag(np.full(len(scale), damping))
+        scaled = self.matrix * np.outer(scale, scale)
+        scaled.reshape(-1)[:: len(scale) + 1] += damping
         downhill = self.right - self.matrix @ self.present
         _, solution, failed = dposv(scaled, scale * downhill)  # a tenth of what SciPy's checks around it take
         if failed:

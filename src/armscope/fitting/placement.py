@@ -172,6 +172,7 @@ class _Placement(NonlinearProblem[Frames, Array]):
         self.poses, self.weigh = poses, weigh
         self.weights = np.ones(len(poses.base))
         self._last: tuple[Frames, Array] | None = None
+        self._squared: tuple[Array, Array] | None = None
 
     def residual(self, state: Frames) -> Array:
         base = self.poses.base
@@ -191,7 +192,7 @@ class _Placement(NonlinearProblem[Frames, Array]):
             at = np.concatenate([6 * base + np.arange(6), 6 * n_bases + 3 * tool + np.arange(3)])
             X = _columns_of_one_frame(points[rows], poses.turned[rows]).reshape(-1, len(at))
             weighted = X * np.repeat(self.weights[rows], 3)[:, None]
-            matrix[np.ix_(at, at)] += weighted.T @ X
+            matrix[at[:, None], at] += weighted.T @ X
             right[at] += weighted.T @ residual[rows].reshape(-1)
         return Quadratic(matrix, right, np.zeros(len(right)))
 
@@ -209,7 +210,9 @@ class _Placement(NonlinearProblem[Frames, Array]):
         ]
 
     def misfit(self, state: Frames, residual: Array) -> float:
-        return float(self.weights @ np.sum(residual**2, axis=1))
+        if self._squared is None or self._squared[0] is not residual:
+            self._squared = residual, np.sum(residual**2, axis=1)
+        return float(self.weights @ self._squared[1])
 
     def moved(self, state: Frames, step: Array) -> Frames:
         return state.moved(step)

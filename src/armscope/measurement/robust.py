@@ -6,7 +6,6 @@ import functools
 from collections.abc import Callable
 
 import numpy as np
-from scipy.special import gammaincc, gammainccinv, gammaincinv
 
 from armscope.core.types import Array
 from armscope.measurement.constants import WEIGHTS
@@ -24,6 +23,8 @@ def scale_of(residuals: Array, least: float = 0.0) -> float:
 @functools.cache
 def _median_length(width: int) -> float:
     """Median length of a vector of so many unit normals."""
+    from scipy.special import gammaincinv  # slow to import: a table that is refused needs none
+
     return float(np.sqrt(2 * gammaincinv(width / 2, 0.5)))
 
 
@@ -32,6 +33,8 @@ def tuning_constant(width: int) -> float:
     """`WEIGHTS.tuning_constant` for rows of so many numbers: as many clean rows lie beyond."""
     if width == 3:
         return WEIGHTS.tuning_constant
+    from scipy.special import gammaincc, gammainccinv  # as above
+
     beyond = float(gammaincc(1.5, WEIGHTS.tuning_constant**2 / 2))  # the share of clean rows farther away
     return float(np.sqrt(2 * gammainccinv(width / 2, beyond)))
 
