@@ -48,12 +48,12 @@ def test_what_belongs_to_the_arm_is_applied_and_what_belongs_to_the_run_is_not(
 ) -> None:
     result = transfer(learned[1], other)
     assert [name for name in result.applied if "background" not in name] == ["joint_compliance at joint 2"]
-    assert result.left_out == ("base_drift at base",)
-    assert result.with_mm == pytest.approx(np.sqrt(3) * NOISE, rel=0.08)
-    assert result.without_mm > 5 * result.with_mm
-    assert result.per_run == {"later": (result.without_mm, result.with_mm)}
+    assert result.left_mm == pytest.approx(np.sqrt(3) * NOISE, rel=0.08)
+    bare = transfer(learned[1], other, ())
+    assert not bare.applied
+    assert bare.left_mm > 5 * result.left_mm
     errors = 1e3 * (other.positions - predict(result.model, other))
-    assert np.sqrt(np.mean(np.sum(errors**2, axis=1))) == pytest.approx(result.with_mm, rel=1e-9)
+    assert np.sqrt(np.mean(np.sum(errors**2, axis=1))) == pytest.approx(result.left_mm, rel=1e-9)
 
 
 def test_the_parameters_stay_as_they_were_learned(learned: tuple[Arm, FittedModel], other: Recordings) -> None:
@@ -64,7 +64,7 @@ def test_the_parameters_stay_as_they_were_learned(learned: tuple[Arm, FittedMode
 
 def test_a_drift_of_one_run_hurts_another(learned: tuple[Arm, FittedModel], other: Recordings) -> None:
     both = transfer(learned[1], other, ["elastic", "drift"])
-    assert both.with_mm > 2 * transfer(learned[1], other, ["elastic"]).with_mm
+    assert both.left_mm > 2 * transfer(learned[1], other, ["elastic"]).left_mm
 
 
 def test_kept_frames_hold_where_nothing_moved(learned: tuple[Arm, FittedModel]) -> None:
@@ -72,13 +72,14 @@ def test_kept_frames_hold_where_nothing_moved(learned: tuple[Arm, FittedModel]) 
     table = recorded(arm, one_run(arm, 150, 3), ARMS, NOISE, seed=4)
     model = diagnose(arm, table.rows(np.arange(100)), QUICK).model
     rest = table.rows(np.arange(100, 150))
-    kept = transfer(model, rest, refitted=(), without=fit_frames(arm, table.rows(np.arange(100))))
-    assert kept.with_mm == pytest.approx(np.sqrt(3) * NOISE, rel=0.2)
-    assert kept.without_mm > 5 * kept.with_mm
+    kept = transfer(model, rest, refitted=())
+    bare = transfer(fit_frames(arm, table.rows(np.arange(100))), rest, refitted=())
+    assert kept.left_mm == pytest.approx(np.sqrt(3) * NOISE, rel=0.2)
+    assert bare.left_mm > 5 * kept.left_mm
     moved = replace(rest, positions=rest.positions + np.array([1e-3, 0, 0]))
-    assert transfer(model, moved, refitted=()).with_mm == pytest.approx(1.0, rel=0.05)
-    assert transfer(model, moved, refitted=("base",)).with_mm < 2 * NOISE
-    assert transfer(model, moved, refitted=("tool",)).with_mm > 0.3, "a tool does not move with the base"
+    assert transfer(model, moved, refitted=()).left_mm == pytest.approx(1.0, rel=0.05)
+    assert transfer(model, moved, refitted=("base",)).left_mm < 2 * NOISE
+    assert transfer(model, moved, refitted=("tool",)).left_mm > 0.3, "a tool does not move with the base"
 
 
 def test_a_tool_that_is_not_known_and_effects_that_are_not_there_are_told(

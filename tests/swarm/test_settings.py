@@ -10,7 +10,6 @@ def test_the_defaults_are_the_papers_numbers():
     settings = SwarmSettings()
     assert (settings.particles, settings.iterations) == (100, 200)
     assert (settings.rule.cognitive, settings.rule.social) == (2.05, 2.05)
-    assert settings.evaluations == 100 * 201
 
 
 def test_a_rule_of_ones_own_is_taken():

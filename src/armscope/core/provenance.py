@@ -55,22 +55,6 @@ def sources(module: str) -> frozenset[Path]:
     return frozenset(found)
 
 
-def forget() -> None:
-    """Look at the sources anew: each is read and parsed once, since forty rules follow much the same ones."""
-    for remembered in (
-        digest,
-        sources,
-        _modules,
-        _place,
-        _identity,
-        _content,
-        _definitions,
-        _followed_by,
-        _data_beside,
-    ):
-        remembered.cache_clear()
-
-
 def _file(module: str) -> Path:
     file = _modules().get(module)
     if file is None:

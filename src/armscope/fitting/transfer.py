@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -36,25 +36,14 @@ class Transferred:
     """How well a model holds on rows that took no part in its fit; RMS of the 3D distance over all rows, mm.
 
     Attributes:
-        rows: how many.
         applied: the effects that were applied, in words, and "... background" for small errors of a family.
-        left_out: the model's other effects.
-        refitted: the frames that were placed anew on these rows.
-        without_mm, with_mm: without and with the effects, the same frames placed anew.
-        per_run: (without, with) of every run by itself.
+        left_mm: with them.
         model: the model with the frames that it has here.
-        residuals: (N, 3) measured minus modelled, base axes, mm.
     """
 
-    rows: int
     applied: tuple[str, ...]
-    left_out: tuple[str, ...]
-    refitted: tuple[Frame, ...]
-    without_mm: float
-    with_mm: float
-    per_run: Mapping[str, tuple[float, float]]
+    left_mm: float
     model: FittedModel
-    residuals: Array
 
 
 def transfer(
@@ -62,9 +51,6 @@ def transfer(
     recordings: Recordings,
     effects: Collection[str] | None = None,
     refitted: Iterable[Frame] = ("base", "tool"),
-    *,
-    tool_per_run: bool = False,
-    without: FittedModel | None = None,
 ) -> Transferred:
     """Apply a fitted model's effects unchanged to other recordings of the arm.
 
@@ -74,12 +60,9 @@ def transfer(
         effects: which to apply: families ("elastic": its named effects and its background), effects
             ("joint_compliance"), effects at a place ("unknown at joint 2"), "background" (of all families) or
             "elastic background"; None applies all that belong to the arm: not drifts, shifts and what follows time or
-            temperature, which belong to their run.
+            temperature, which belong to their run. Of none, only the frames stay.
         refitted: frames placed anew on these rows (base per run, tool per target); others stay as the model has them,
             and a run that it does not know stands on its last base.
-        tool_per_run: whether each run gets a tool of its own, where tools are refitted.
-        without: what to compare with; the model without any effect where not given. (Where frames are kept, the bare
-            arm's own fit to the rows of learning is the fair one: `fit_frames`.)
 
     Returns:
         The model on the other rows, and what it leaves of them.
@@ -89,29 +72,10 @@ def transfer(
     """
     frames = tuple(frame for frame in ("base", "tool") if frame in set(refitted))
     parts, background = _applied(model, effects)
-    own = replace(model, parts=parts, background=background)
-    bare = without or replace(model, parts=(), background=())
     if "tool" not in frames:
         _check_targets(model, recordings)
-    own, bare = (_placed_anew(each, recordings, frames, tool_per_run) for each in (own, bare))
-    left, before = point_residuals(own, recordings), point_residuals(bare, recordings)
-    return Transferred(
-        rows=len(recordings),
-        applied=_words(parts, background),
-        left_out=_words(
-            [part for part in model.parts if not any(part is p for p in parts)],
-            [part for part in model.background if not any(part is p for p in background)],
-        ),
-        refitted=frames,
-        without_mm=rms_distance(before),
-        with_mm=rms_distance(left),
-        per_run={
-            str(run): (rms_distance(before[recordings.run == run]), rms_distance(left[recordings.run == run]))
-            for run in np.unique(recordings.run)
-        },
-        model=own,
-        residuals=left,
-    )
+    own = _placed_anew(replace(model, parts=parts, background=background), recordings, frames)
+    return Transferred(_words(parts, background), rms_distance(point_residuals(own, recordings)), own)
 
 
 def belongs_to_the_arm(placed: Placed) -> bool:
@@ -168,16 +132,14 @@ def _check_targets(model: FittedModel, recordings: Recordings) -> None:
             )
 
 
-def _placed_anew(
-    model: FittedModel, recordings: Recordings, frames: Collection[Frame], tool_per_run: bool
-) -> FittedModel:
+def _placed_anew(model: FittedModel, recordings: Recordings, frames: Collection[Frame]) -> FittedModel:
     """The model with some frames fitted to the rows, its effects unchanged (Gauss-Newton, Huber weights)."""
     if not frames:
         return model
-    start = fit_frames(model.arm, recordings, tool_per_run)
+    start = fit_frames(model.arm, recordings)
     tools = start.tools if "tool" in frames else model.tools
     bases = start.bases if "base" in frames else {str(r): model.base_of(str(r)) for r in np.unique(recordings.run)}
-    free = [p for p in free_frames(recordings, tool_per_run) if p.location in frames]
+    free = [p for p in free_frames(recordings, False) if p.location in frames]
     problem = _Frames(recordings, [term for placed in free for term in placed.terms])
     return gauss_newton(problem, replace(model, bases=dict(bases), tools=tools), STEPS.transfer).state
 

@@ -22,6 +22,8 @@ IDENTIFIABLE = 1e-6
 """A combination of parameters counts as identifiable above this share of the largest singular value."""
 
 EXCHANGES = 200
+RANDOM_DRAWS = 50
+"""Choices at random that the index is compared with."""
 
 
 @dataclass(frozen=True)
@@ -72,9 +74,7 @@ def joint_ranges(motor_angles: ArrayLike, margin: float) -> tuple[Array, Array]:
     return low - margin * moves, high + margin * moves
 
 
-def choose_identification_poses(
-    jacobian: Array, count: int, rng: np.random.Generator, random_draws: int = 50
-) -> ChosenPoses:
+def choose_identification_poses(jacobian: Array, count: int, rng: np.random.Generator) -> ChosenPoses:
     """The ``count`` candidates with the largest observability index, by greedy growth and then exchanges.
 
     Args:
@@ -82,7 +82,6 @@ def choose_identification_poses(
             units of its tolerance, so that metres and radians compare.
         count: how many to choose, at most N.
         rng: draws the random choices that the index is compared with.
-        random_draws: how many of those.
 
     Returns:
         The chosen rows, their index, and the median index of random choices.
@@ -98,7 +97,7 @@ def choose_identification_poses(
     if 3 * count < n_parameters:
         raise ValueError(f"{count} poses for {n_parameters} parameters: a pose gives 3 numbers, so more are needed")
     chosen = _exchanged(reduced, _grown(reduced, count))
-    random = [_index(reduced, rng.choice(n_candidates, count, replace=False)) for _ in range(random_draws)]
+    random = [_index(reduced, rng.choice(n_candidates, count, replace=False)) for _ in range(RANDOM_DRAWS)]
     return ChosenPoses(np.sort(chosen), _index(reduced, chosen), float(np.median(random)), n_parameters)
 
 

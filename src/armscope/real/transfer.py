@@ -62,10 +62,10 @@ def _diagnosed_transfer(learned: Diagnosis, rows: Recordings, transfer: Referenc
     if "tool" not in transfer.refitted:
         known = [part.placed.variant for part in learned.model.tools]
         rows = replace(rows, target=np.where(np.isin(rows.target, known), rows.target, known[0]))
-    found = {ARMSCOPE: carry_over(learned.model, rows, refitted=transfer.refitted).with_mm}
+    found = {ARMSCOPE: carry_over(learned.model, rows, refitted=transfer.refitted).left_mm}
     parts = (*learned.model.parts, *learned.model.background)
     if any(part.placed.effect.family == "elastic" for part in parts) and "base" in transfer.refitted:
-        found[ARMSCOPE_ELASTIC] = carry_over(learned.model, rows, ["elastic"], transfer.refitted).with_mm
+        found[ARMSCOPE_ELASTIC] = carry_over(learned.model, rows, ["elastic"], transfer.refitted).left_mm
     return found
 
 

@@ -49,11 +49,6 @@ class SwarmSettings:
         """The update rule itself."""
         return self.update if isinstance(self.update, UpdateRule) else PRESETS[self.update]
 
-    @property
-    def evaluations(self) -> int:
-        """How often one swarm evaluates its objective if it uses all iterations."""
-        return self.particles * (self.iterations + 1)
-
 
 def _check_whole(name: str, value: object, least: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
