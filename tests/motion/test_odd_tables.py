@@ -75,3 +75,46 @@ def test_gravity_that_points_up_is_asked_after_before_a_sign_is_turned() -> None
     told = [each.cure for each in check_moving(moved(robot(), 3), hanging).suspicions if "opposite" in each.statement]
     assert told
     assert all("points up" in cure for cure in told)
+
+
+def test_a_speed_that_never_changes_while_the_joint_moves_is_told() -> None:
+    motion = table(robot(), 3, seconds=3.0).assign(dq1_rad_s=0.0, dq2_rad_s=0.0, dq3_rad_s=0.0)
+    (told,) = (each for each in check_motions(robot(), as_motions(motion, "motions.csv", 3)) if each.kind == "no speed")
+    assert told.text.startswith("The recorded speed dq1, dq2, dq3 never changes")
+
+
+@pytest.mark.parametrize(("warmth", "kelvin"), [(300.0, True), (-200.0, True), (80.0, False), (-30.0, False)])
+def test_kelvin_and_numbers_for_no_value_are_no_temperature_of_an_arm(warmth: float, kelvin: bool) -> None:
+    motions = as_motions(table(robot(), 3, seconds=3.0).assign(temperature_c=warmth), "motions.csv", 3)
+    if not kelvin:
+        assert not [each for each in check_motions(robot(), motions) if "temperature" in each.text]
+        return
+    for look in (lambda: check_motions(robot(), motions), lambda: check_moving(motions)):
+        with pytest.raises(InputError, match=r"Are these kelvin\? .* leave the cell empty"):
+            look()
+
+
+def test_rows_given_twice_are_told_as_such_and_taken_once() -> None:
+    motion = table(robot(), 3, runs=1, seconds=3.0)
+    twice = as_motions(motion.loc[motion.index.repeat(2)].reset_index(drop=True), "motions.csv", 3)
+    found, notices = mended(twice)
+    assert [notice.kind for notice in notices] == ["rows given twice"]
+    assert "600 rows are given twice" in notices[0].text
+    np.testing.assert_array_equal(found.time, motion["time_s"])
+
+
+def test_a_table_appended_to_itself_says_from_which_row_on() -> None:
+    motion = table(robot(), 3, runs=1, seconds=3.0)
+    again = as_motions(pd.concat([motion, motion], ignore_index=True), "motions.csv", 3)
+    with pytest.raises(InputError, match="It is row 2 once more: are rows given twice"):
+        mended(again)
+
+
+def test_nothing_missing_says_how_coarsely_the_torque_was_recorded() -> None:
+    motions = moved(robot(), 3)
+    steps = np.array([0.0, 1.5, 0.0])
+    rounded = np.where(steps > 0, np.round(motions.effort / np.maximum(steps, 1e-9)) * steps, motions.effort)
+    verdict = diagnose_motion(robot(), replace(motions, effort=rounded)).verdict
+    assert verdict.answer == "nothing missing"
+    assert "Recorded coarsely: tau2_nm in steps of 1.5, whose rounding is 0.43 RMS" in verdict.headline
+    assert "tau1_nm" not in verdict.headline

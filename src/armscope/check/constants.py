@@ -270,6 +270,17 @@ class MotionRules(Constants):
         "times less than as stated that another reading must leave",
         "judgement: no chance of a few rows does so much",
     )
+    clock: tuple[float, float, float] = constant(
+        (0.06, 0.5, 0.01),
+        "from which, up to which and in which steps torque is looked for at another time than motion",
+        "judgement: a diagnosis tries 36 ms, recordings started by hand differ by more; beyond, nobody overlooks it",
+        unit="s",
+    )
+    at_another_time: float = constant(
+        2.0,
+        "times less that a joint's torque must leave at another time",
+        "measured: three real sets leave 1.03 times less at most at any other time; put off by 200 ms, EMPS 2.3",
+    )
     link_factor: float = constant(
         0.05,
         "of the motor's travel, by which a link's may differ",

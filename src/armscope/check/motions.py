@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any, Literal
@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from armscope.check.constants import MOTION
+from armscope.check.motion_clock import other_clock
 from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
 from armscope.check.suspicion import Suspicion, verdict_lines
@@ -57,10 +58,12 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     found = [*told, *_dead(motions), *_units(motions)]
     found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
     if arm is not None:
-        samples = _samples(even)
+        runs = {run: _coarse(even, run) for run in even.runs}
+        samples = _samples([few for _, few in runs.values()])
         if motions.kind == "torque":
             found += _torques(even, samples, arm)
         found += read_otherwise(samples, arm)
+        found += other_clock(even, runs, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))
 
 
@@ -182,21 +185,21 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
             yield Suspicion(weight, f"{name} is {factor:.3g} times what the stated masses ask for", cure)
 
 
-def _samples(motions: Motions) -> Samples:
+def _samples(parts: Sequence[Samples]) -> Samples:
     """Of all runs, differenced over a twentieth of a second: to see sign, size and order."""
-    parts = [_coarse(motions, run) for run in motions.runs]
-    return Samples(*(np.concatenate([part[k] for part in parts]) for k in range(4)))
+    return Samples(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("q", "dq", "ddq", "effort")))
 
 
-def _coarse(motions: Motions, run: str) -> tuple[Array, Array, Array, Array]:
-    """Positions, derivatives and torques of a run, differenced over a twentieth of a second: to see sign and size."""
+def _coarse(motions: Motions, run: str) -> tuple[Array, Samples]:
+    """Time and samples of a run, differenced over a twentieth of a second: to see sign and size."""
     rows = np.flatnonzero(motions.run == run)
     time = motions.time[rows]
     step = max(int(MOTION.coarse / float(np.median(np.diff(time)))), 1)
     q, time = motions.q[rows][::step], time[::step]
     if len(q) < MOTION.samples:
         none = np.empty((0, motions.n_motors))
-        return none, none, none, none
+        return np.empty(0), Samples(none, none, none, none)
     dq = np.gradient(q, time, axis=0)
     inside = slice(2, -2)
-    return q[inside], dq[inside], np.gradient(dq, time, axis=0)[inside], motions.effort[rows][::step][inside]
+    ddq, effort = np.gradient(dq, time, axis=0), motions.effort[rows][::step]
+    return time[inside], Samples(q[inside], dq[inside], ddq[inside], effort[inside])

@@ -8,13 +8,19 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.samples.timing import limits
+from armscope.motion.samples.constants import READING
+from armscope.motion.samples.timing import coarse_steps, limits
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import percent
 
 if TYPE_CHECKING:
     from armscope.motion.library.layout import TorqueLayout
+
+
+COARSE = "coarse channel"
+"""Kind of the notice that rounding of the recorded torque limits what can be told."""
 
 
 def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
@@ -36,12 +42,13 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
 
 
 def doubts_about(motions: Motions) -> list[Notice]:
-    """Joints that stand, or move one way only; channels that were cut off.
+    """Joints that stand, or move one way only; channels that were cut off, are coarse, or hold no speed.
 
     Raises:
-        InputError: none moves.
+        InputError: none moves, or temperatures are no arm's.
     """
-    return [*_still_joints(motions), *_one_way(motions), *_cut_off(motions)]
+    _refuse_temperatures(motions)
+    return [*_still_joints(motions), *_one_way(motions), *_cut_off(motions), *_coarse(motions), *_no_speeds(motions)]
 
 
 def channels(motions: Motions) -> list[str]:
@@ -137,3 +144,44 @@ def refuse_few(layout: TorqueLayout, rows: int, source: str) -> None:
             f"{parameters} values of friction and masses need at least {CHECK.rows_per_parameter * parameters} numbers"
         )
         raise InputError(source, "", f"{rows} independent rows of {joints} joints", rule, "Record longer.")
+
+
+def _refuse_temperatures(motions: Motions) -> None:
+    """Make sure that temperatures are degrees Celsius."""
+    if motions.temperature is None or np.isnan(motions.temperature).all():
+        return
+    least, most = READING.temperature
+    beyond = np.argwhere((motions.temperature < least) | (motions.temperature > most))
+    if len(beyond):
+        row, j = (int(each) for each in beyond[0])
+        rule = f"an arm is between {least:g} and {most:g} degrees Celsius warm"
+        cure = "Are these kelvin? Take 273.15 from them. Where nothing was read, leave the cell empty."
+        column = f"column temperature_c, or temperature{j + 1}_c"
+        raise InputError(motions.source, f"row {row + 2}, {column}", float(motions.temperature[row, j]), rule, cure)
+
+
+def _coarse(motions: Motions) -> list[Notice]:
+    told = []
+    for name, step, effort in zip(channels(motions), coarse_steps(motions.effort), motions.effort.T, strict=True):
+        if step > 0:
+            rounding = step / np.sqrt(12)
+            share = percent(rounding / max(float(np.sqrt(np.mean(effort**2))), 1e-300))
+            told.append(f"{name} in steps of {step:.3g}, whose rounding is {rounding:.2g} RMS, {share} of it")
+    if not told:
+        return []
+    text = f"Recorded coarsely: {'; '.join(told)}. An error of that size is rounding, and shows no cause."
+    return [Notice(COARSE, text)]
+
+
+def _no_speeds(motions: Motions) -> list[Notice]:
+    if motions.dq is None:
+        return []
+    moving = np.ptp(motions.q, axis=0) > LIBRARY.still_rad
+    dead = np.flatnonzero(moving & (np.ptp(np.nan_to_num(motions.dq), axis=0) == 0))
+    if not len(dead):
+        return []
+    names = ", ".join(f"dq{j + 1}" for j in dead)
+    text = (
+        f"The recorded speed {names} never changes, and the joint moves: speeds are taken from the positions instead."
+    )
+    return [Notice("no speed", text)]

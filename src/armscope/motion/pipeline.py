@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import check_motions, refuse_few
+from armscope.motion.check import COARSE, check_motions, refuse_few
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.pauses import pauses_in_words
@@ -166,6 +166,7 @@ def diagnose_motion(
     verdict = with_links(verdict, [twist.side for twist in twists])
     verdict = replace(
         verdict,
+        headline=_as_far_as_recorded(verdict, notices),
         preparation=how.words + pauses_in_words(selected.rows.pauses),
         notices=(*notices, *verdict.notices),
         samples=len(motions),
@@ -174,6 +175,12 @@ def diagnose_motion(
     )
     progress("done", 1.0)
     return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
+
+
+def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
+    """The headline; where nothing is missing, with how coarsely the torque was recorded that says so."""
+    coarse = [notice.text for notice in notices if notice.kind == COARSE]
+    return " ".join([verdict.headline, *(coarse if verdict.answer == "nothing missing" else ())])
 
 
 def _carried(motions: Motions) -> dict[str, float]:

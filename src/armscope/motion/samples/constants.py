@@ -177,6 +177,15 @@ class ReadingRules(Constants):
         "judgement: a step of half a percent; eight bits have 256",
         unit="steps",
     )
+    rounding: float = constant(
+        1e-9, "of a channel's range, below which a change is rounding of the computer", "derived: of double precision"
+    )
+    temperature: tuple[float, float] = constant(
+        (-50.0, 150.0),
+        "between which the temperature of an arm lies",
+        "judgement: drives' windings stand 155 at the most (insulation class F), and kelvin begin at 220 outdoors",
+        unit="degrees C",
+    )
     cut_reach: float = constant(
         1.0,
         "of the torques' cut-off, within which a row holds some of what was cut off",

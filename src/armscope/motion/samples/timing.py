@@ -61,8 +61,15 @@ def limits(effort: Array) -> tuple[Array, Array]:
 def _steps(effort: Array) -> Array:
     """(m,) into how many of its smallest steps each channel's range parts."""
     steps = np.abs(np.diff(effort, axis=0))
+    steps[steps < READING.rounding * np.ptp(effort, axis=0)] = 0.0
     least = np.min(np.where(steps > 0, steps, np.inf), axis=0, initial=np.inf)
     return np.asarray(np.ptp(effort, axis=0) / least)
+
+
+def coarse_steps(effort: Array) -> Array:
+    """(m,) smallest step of each channel (N, m), where its range holds few of them; 0 where it is fine or dead."""
+    few = _steps(effort) < READING.fine
+    return np.asarray(np.where(few, np.ptp(effort, axis=0) / np.maximum(_steps(effort), 1e-300), 0.0))
 
 
 def mended(motions: Motions) -> tuple[Motions, list[Notice]]:
@@ -113,13 +120,17 @@ def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, A
         row = int(rows[back[0] + 1])
         rule = f"time does not go back within a run ({time[back[0]]:.6g} stands before)"
         cure = "Sort the rows by time, or give every motion its own name in the column run."
+        before = rows[motions.time[rows] == time[back[0] + 1]][0]
+        if before < row and np.array_equal(motions.q[before], motions.q[row]):
+            cure = f"It is row {int(before) + 2} once more: are rows given twice? Delete those from row {row + 2} on."
         raise InputError(motions.source, f"row {row + 2}, column time_s", float(time[back[0] + 1]), rule, cure)
     usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
     if usual <= 0 or 1 / usual < TIMING.slowest_hz:
         rule = f"a motion is sampled at least {TIMING.slowest_hz:g} times a second"
         cure = "Are these milliseconds? Divide them by 1000." if usual else "All stamps are the same."
         raise InputError(motions.source, f"{label}, column time_s", f"steps of {usual:g} s", rule, cure)
-    notices = []
+    rows, notices = _once_each(motions, rows, label)
+    steps = np.diff(motions.time[rows])
     same = np.r_[False, (np.diff(motions.q[rows], axis=0) == 0).all(1) & _as_fast(motions, rows)]
     twice = same | np.r_[False, steps == 0]
     uneven = float(np.mean(np.abs(steps - usual) > TIMING.uneven * usual))
@@ -148,6 +159,16 @@ def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, A
         return (kept, motions.time[kept]), notices
     notices.append(Notice("repeated rows", f"{label}: {int(twice.sum())} rows repeat the row before and were dropped."))
     return (kept, mended_time), notices
+
+
+def _once_each(motions: Motions, rows: np.ndarray, label: str) -> tuple[np.ndarray, list[Notice]]:
+    """Rows of a run without those that are the row before once more, time stamp included; and what is said of it."""
+    table = np.column_stack([motions.time[rows], motions.q[rows], motions.effort[rows]])
+    again = np.r_[False, (table[1:] == table[:-1]).all(axis=1)]
+    if not again.any():
+        return rows, []
+    text = f"{label}: {int(again.sum())} rows are given twice, time stamp included; each was taken once."
+    return rows[~again], [Notice("rows given twice", text)]
 
 
 def _as_fast(motions: Motions, rows: np.ndarray) -> np.ndarray:
