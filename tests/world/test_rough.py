@@ -12,7 +12,7 @@ import yaml
 from armscope.core.averages import rms
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
-from armscope.world.imperfections import DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
+from armscope.world.imperfections import BEARING, DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.kinds import Concealed
 from armscope.world.oracle import oracle_rms
 from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, rough_noise
@@ -56,6 +56,19 @@ def test_a_pedestal_that_is_soft_about_one_axis_moves_the_tool_across_it():
     )
     along = np.array([np.cos(0.4), np.sin(0.4), 0])
     assert np.abs(moved @ along).max() < 1e-3 * np.abs(moved).max()
+
+
+def test_a_bearing_that_is_soft_about_one_axis_tilts_about_it_alone():
+    scene, rigid = scene_of("six-axis")
+    arm, per_nm = HandArm.named("six-axis"), 1e-9
+    bearing = Concealed(BEARING, "joint 3", {"about_x": per_nm, "about_y": 1e-15})
+    by_hand = []
+    for q, payload, point in zip(scene.session.commanded, scene.session.payload, rigid, strict=True):
+        frame = arm.frames(arm.actuation @ q)[0][2]
+        origin, x = frame[:3, 3], frame[:3, 0]
+        by_hand.append(np.cross(per_nm * (arm.moment(q, payload, origin, 2) @ x) * x, point - origin))
+    moved = equilibrium(scene, [bearing]).tool - rigid
+    assert np.abs(moved - by_hand).max() < 2e-3 * np.abs(by_hand).max()
 
 
 def test_a_drive_that_hardens_turns_in_two_sections_with_a_bend_at_its_knee():

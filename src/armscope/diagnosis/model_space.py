@@ -20,12 +20,37 @@ from armscope.inference.model_space import (
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.physics.backgrounds import DRIFT, FAMILIES, GEOMETRIC, MASSES, SOFT
+from armscope.physics.backgrounds import (
+    DRIFT,
+    ELASTIC,
+    FAMILIES,
+    GEOMETRIC,
+    MASSES,
+    ORIENTATION,
+    SOFT,
+    STRUCTURE,
+    THERMAL,
+    TRANSMISSION,
+    UNEVEN,
+)
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
-from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
+from armscope.physics.elastic import BASE_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
 from armscope.physics.soft_start import SOFT_START
 from armscope.physics.transmission import BACKLASH
+
+SHARES = {
+    GEOMETRIC: BACKGROUNDS.tolerance_shares,
+    ELASTIC: BACKGROUNDS.elastic_shares,
+    TRANSMISSION: BACKGROUNDS.gear_shares,
+    DRIFT: BACKGROUNDS.wander_shares,
+    SOFT: BACKGROUNDS.elastic_shares,
+    ORIENTATION: BACKGROUNDS.wander_shares,
+    THERMAL: BACKGROUNDS.wander_shares,
+    STRUCTURE: BACKGROUNDS.structure_shares,
+    UNEVEN: BACKGROUNDS.structure_shares,
+}
+"""Sizes that the background of a family may have, against its tolerances."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -73,15 +98,7 @@ def build_model_space(
 
 def _families(layout: ParameterLayout) -> tuple[BackgroundFamily, ...]:
     """Every family is measured against its tolerances; geometric errors are free, since every arm has them."""
-    shares = (
-        BACKGROUNDS.tolerance_shares,
-        BACKGROUNDS.elastic_shares,
-        BACKGROUNDS.gear_shares,
-        BACKGROUNDS.wander_shares,
-        BACKGROUNDS.elastic_shares,
-        BACKGROUNDS.wander_shares,
-        BACKGROUNDS.wander_shares,
-    )
+    shares = [SHARES[family] for family in FAMILIES]
     families = zip(FAMILIES, layout.background[:-1], layout.background_scale[:-1], shares, strict=True)
     return tuple(
         ToleranceFamily(*family, is_priced=family[0] != GEOMETRIC, takes_one=family[0] == DRIFT) for family in families
@@ -137,7 +154,7 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 driver=p.driver,
                 label=str(p),
                 family=DRIFT if curve and p.location == "base" and p.variant == "time" else p.family,
-                looks_like=SOFT if p.variant == "load" and (curve or p.effect is BACKLASH) else "",
+                looks_like=_looks_like(p),
                 region=region(p),
                 multiplicity=p.multiplicity,
                 nonnegative=p.effect.nonnegative and len(p.terms) == 1,
@@ -155,6 +172,13 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
             )
         )
     return tuple(candidates)
+
+
+def _looks_like(p: Placed) -> str:
+    """The background that does what an effect does, where it is not its own family's."""
+    if p.variant == "load" and (p.parametrisation == "curve" or p.effect is BACKLASH):
+        return SOFT
+    return STRUCTURE if p.effect in (BASE_COMPLIANCE, LINK_BENDING) else ""
 
 
 def _competes(p: Placed) -> bool:

@@ -6,6 +6,7 @@ finds the share that this arm has.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.thermal import all_links_growing
+from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.physics.wander import link_wander, wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -25,14 +27,18 @@ from armscope.robot import Arm
 GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT = "geometric", "elastic", "transmission", "drift"
 SOFT = "soft start"
 """How much softer drives are under small loads: no soft arm need have it, so its size is learned by itself."""
+STRUCTURE = "structure"
+"""How much links and the base bend: what gives way besides joints, by itself, since it may be far stiffer than they."""
+UNEVEN = "uneven bearings"
+"""How much softer bearings are about one axis than about the other."""
 THERMAL = "thermal"
 """How much all links grow with the recorded temperature."""
 ORIENTATION = "orientation"
 """How smoothly the orientations' instrument errs: nothing of the arm, and no point moves by it."""
-FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT, ORIENTATION, THERMAL)
+FAMILIES = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT, SOFT, ORIENTATION, THERMAL, STRUCTURE, UNEVEN)
 MENDED = {
-    GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT), TRANSMISSION: (TRANSMISSION,), DRIFT: (DRIFT,),
-    THERMAL: (THERMAL,),
+    GEOMETRIC: (GEOMETRIC,), ELASTIC: (ELASTIC, SOFT, STRUCTURE, UNEVEN), TRANSMISSION: (TRANSMISSION,),
+    DRIFT: (DRIFT,), THERMAL: (THERMAL,),
 }  # fmt: skip
 """As what families are told: who mends one of the same, mends the others."""
 MASSES = "mass"
@@ -40,7 +46,7 @@ MASSES = "mass"
 
 
 def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[str, list[Placed]]:
-    """By family: D-H constants, what gives way, gears' waves, wander, soft starts, orientations' errors, links' growth.
+    """By family: D-H constants, what gives way, gears' waves, wander, what grows with the temperature and so on.
 
     Args:
         arm: the nominal arm.
@@ -51,21 +57,28 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
-    springs = [*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]
-    # what bears no load has no size, and shows nothing
-    give = [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
+    pedestal = [
+        placed for placed in elastic.BASE_COMPLIANCE.place(arm, recordings) if placed.variant == elastic.TWO_AXES
+    ]
     constant = [
         replace(placed, prior_scale=(FORM.tolerance,) * len(placed.terms)) for placed in geometric.background(arm)
     ]
     return {
         GEOMETRIC: constant,
-        ELASTIC: give,
+        ELASTIC: _loaded([*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]),
         TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
         DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
         SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
         ORIENTATION: orientation_errors(recordings),
         THERMAL: all_links_growing(arm, recordings),
+        STRUCTURE: _loaded([*pedestal, *elastic.LINK_BENDING.place(arm, recordings)]),
+        UNEVEN: _loaded(uneven_bearings(arm, recordings)),
     }
+
+
+def _loaded(springs: Iterable[Placed]) -> list[Placed]:
+    """What bears a load; the rest has no size, and shows nothing."""
+    return [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
 
 
 def _sized(placed: Placed) -> Placed:

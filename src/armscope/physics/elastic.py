@@ -150,11 +150,12 @@ def _tilt(scene: Scene, location: str) -> Term:
         "compliance",
         "rad/(N m)",
         *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
-        plausible=_plausible_tilt(scene, location),
+        plausible=tilt_per_moment(scene, location),
     )
 
 
-def _plausible_tilt(scene: Scene, location: str) -> float:
+def tilt_per_moment(scene: Scene, location: str) -> float:
+    """How far a bearing or the base plausibly tilts under a moment, rad/(N m); infinite where none is."""
     return _plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
 
 
@@ -192,7 +193,7 @@ def _two_axes(scene: Scene, location: str) -> tuple[Term, ...]:
     """A symmetric 2 x 2 compliance about x and y: soft axes that lie anyhow."""
     about = [Direction(location, axis) for axis in ("rx", "ry")]
     under = [Driver("moment", (location, n)) for n in (0, 1)]
-    size = _plausible_tilt(scene, location)
+    size = tilt_per_moment(scene, location)
     return (
         term("compliance_x", "rad/(N m)", (about[0], under[0]), plausible=size),
         term("compliance_y", "rad/(N m)", (about[1], under[1]), plausible=size),

@@ -52,6 +52,11 @@ class RoughSizes(Constants):
         "judgement: anchors and a welded column give as much as a bearing, or twice",
         unit="rad",
     )
+    bearing_ratio: tuple[float, float] = constant(
+        (1.0, 3.0),
+        "how much softer a bearing is about one axis than about the other",
+        "judgement: its seat is a casting, ribbed on one side and open on the other",
+    )
     pedestal_ratio: tuple[float, float] = constant(
         (1.5, 8.0),
         "how much softer it is about one axis than across",

@@ -50,6 +50,11 @@ def _hide_pedestal(hidden: Hidden, scene: Scene, location: str, values: Values) 
     hidden.spring("pedestal v", values["stiff"])
 
 
+def _hide_bearing(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    for axis in "xy":
+        hidden.spring(f"tilt {number(location) + 1} {axis}", values[f"about_{axis}"])
+
+
 def _hide_waves(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     hidden.motor[:, number(location)] += waves(scene.session.commanded[:, number(location)], values)
 
@@ -139,6 +144,10 @@ DRIVE = _kind(
 PEDESTAL = _kind(
     "base_compliance", "two axes", LOAD, _hide_pedestal, Parameter("soft", "rad/(N m)"),
     Parameter("stiff", "rad/(N m)"), Parameter("direction", "rad", scales=False),
+)  # fmt: skip
+BEARING = _kind(
+    "bearing_compliance", "two axes", LOAD, _hide_bearing, Parameter("about_x", "rad/(N m)"),
+    Parameter("about_y", "rad/(N m)"),
 )  # fmt: skip
 LOW_WAVES = _kind("gear_eccentricity", "waves", ANGLE, _hide_waves, _RMS)
 FINE_WAVES = _kind("gear_mesh", "waves", ANGLE, _hide_waves, _RMS)

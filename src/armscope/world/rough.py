@@ -17,6 +17,7 @@ from armscope.core.types import Array
 from armscope.robot.description import Parallelogram, RobotDescription
 from armscope.world.constants import ROUGH, Pair
 from armscope.world.imperfections import (
+    BEARING,
     DRIVE,
     FINE_WAVES,
     GROWTH,
@@ -76,7 +77,7 @@ def _lines(rng: np.random.Generator, scene: Scene) -> Drawn:
 
 
 def _springs(rng: np.random.Generator, scene: Scene) -> Drawn:
-    """Drives that harden, bearings that tilt, links that bend."""
+    """Drives that harden, bearings that tilt more about one axis than about the other, links that bend."""
     largest = float(scene.torque_scale.max())
     found = []
     for motor, place in enumerate(joints(scene.description)):
@@ -85,8 +86,10 @@ def _springs(rng: np.random.Generator, scene: Scene) -> Drawn:
             compliance = turn * (1 - soft) / scene.largest_torque(motor)
             values = {"compliance": compliance, "soft": turn * soft, "knee": between(rng, ROUGH.knee_share)}
             found.append(Concealed(DRIVE, place, values))
-        tilt = {"compliance": between(rng, ROUGH.bearing_rad) / largest}
-        found.append(Concealed(OF["bearing_compliance"], place, tilt))
+        soft = between(rng, ROUGH.bearing_rad) / largest
+        stiff = soft / between(rng, ROUGH.bearing_ratio)
+        about_x, about_y = rng.permutation([soft, stiff]).tolist()
+        found.append(Concealed(BEARING, place, {"about_x": about_x, "about_y": about_y}))
     for place in links_longer_than(LONG_LINK_M)(scene.description):
         # a beam turns at its end by L / (2 E I) to L / (E I) times the moment
         found.append(Concealed(OF["link_bending"], place, {"flexibility": between(rng, ROUGH.bearing_rad) / largest}))

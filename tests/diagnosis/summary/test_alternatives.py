@@ -45,7 +45,7 @@ def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: 
     assert (("base_drift", "base") in {(a.effect, a.location) for a in found.alternatives}) == in_step
 
 
-@pytest.mark.parametrize("seed", [3, 6])
+@pytest.mark.parametrize("seed", [6, 7])
 def test_what_got_its_name_out_of_a_background_has_rivals_too(seed: int) -> None:
     """An upright first bearing and the second drive turn a seven-axis arm alike where loads are alike."""
     rng = np.random.default_rng(seed)
