@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.export import TIP, export
 from armscope.calibration.geometry import Constant, corrected
 from armscope.core.files import write_json

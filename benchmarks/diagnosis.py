@@ -56,7 +56,7 @@ def lengthened(visible: Path, rows: int, folder: Path) -> Path:
 
 def measure(visible: Path, rounds: int) -> dict[str, object]:
     """Run in a process of its own: times of diagnosis, atlas and calibration, seconds, and peak memory, MB."""
-    from armscope.calibration import calibrate
+    from armscope.calibration.calibrate import calibrate
     from armscope.diagnosis import diagnose, pipeline
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
 from armscope.recordings import as_recordings

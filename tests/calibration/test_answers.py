@@ -8,7 +8,7 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.confounding import Confounded, kind_of
 from armscope.calibration.export import export, frames_content
 from armscope.calibration.fit import least_squares

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from armscope.calibration import Priors, calibrate, held_out_levels
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.geometry import constant_columns, constants_of, corrected
+from armscope.calibration.held_out import held_out_levels
 from armscope.calibration.model import set_up
+from armscope.calibration.solve import Priors
 from armscope.calibration.splits import random_split
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings

@@ -9,7 +9,7 @@ import pinocchio as pin
 import pytest
 import yaml
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.export import export
 from armscope.core.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm

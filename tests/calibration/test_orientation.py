@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
 from armscope.robot import chain

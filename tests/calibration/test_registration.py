@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from tests.calibration.worlds import far_away, measured, poses, ur_like
 from tests.robot.arms import STANDARD, dh_arm
 

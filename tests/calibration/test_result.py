@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.result import SHOWN
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 

@@ -11,7 +11,7 @@ from armscope.recordings import as_recordings
 from armscope.robot import chain
 from armscope.robot.arm import build_arm
 from armscope.robot.library import nominal_description
-from armscope.verdict.sentences import ANOTHER_MODEL
+from armscope.verdict.schema import ANOTHER_MODEL
 
 
 def table(name, noise_mm=0.05, seed=0, rows=60):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.check.report import check
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.registration import fit_frames

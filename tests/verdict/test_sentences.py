@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from armscope.verdict.effects import Cause, Parameter
-from armscope.verdict.schema import Background, HeldOut, Notice, Unexplained
-from armscope.verdict.sentences import ANOTHER_MODEL, cause_in_words, headline
+from armscope.verdict.schema import ANOTHER_MODEL, Background, HeldOut, Notice, Unexplained
+from armscope.verdict.sentences import cause_in_words, headline
 from armscope.verdict.wording import main_and_minor
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found

@@ -15,7 +15,7 @@ from armscope.core.sampling import spread_evenly
 from armscope.recordings import Recordings
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.library import nominal_description, nominal_names
-from armscope.verdict.sentences import ANOTHER_MODEL
+from armscope.verdict.schema import ANOTHER_MODEL
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,7 @@ from armscope.physics.placing import varies
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
-from armscope.verdict.schema import Notice
-from armscope.verdict.sentences import ANOTHER_MODEL
+from armscope.verdict.schema import ANOTHER_MODEL, Notice
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
-from armscope.verdict.sentences import ANOTHER_MODEL
+from armscope.verdict.schema import ANOTHER_MODEL
 
 NOT_A_DRIVER = ("orientation", "sigma")
 """What may well be the same in every row."""

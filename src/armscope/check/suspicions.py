@@ -18,18 +18,15 @@ from armscope.check.common_mistakes import trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
-from armscope.check.orientations import orientation_mistakes
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
-from armscope.fitting.exchanged_tool import exchanged_tool
-from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.recordings.columns import counted_from_zero
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
-from armscope.verdict.sentences import ANOTHER_MODEL
+from armscope.verdict.schema import ANOTHER_MODEL
 
 WRONG_ROBOT = "wrong robot"
 
@@ -75,6 +72,8 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     else:
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
         found += _exchanged_rows(arm, recordings)
+        from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
+
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
         found += _moved_tools(arm, replace(some, orientation=None) if turned else some)
@@ -210,7 +209,12 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
     Args:
         explains: only where tools of their own explain the points.
     """
-    found = exchanged_tool(fit_frames(arm, table), table) if len(np.unique(table.run)) > 1 else None
+    if len(np.unique(table.run)) < 2:
+        return []
+    from armscope.fitting.exchanged_tool import exchanged_tool  # as above
+    from armscope.fitting.registration import fit_frames
+
+    found = exchanged_tool(fit_frames(arm, table), table)
     if found is None:
         return []
     if explains:

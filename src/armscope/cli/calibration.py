@@ -98,7 +98,7 @@ def calibrate(
     writable(output, *FILES, *TABLES)
     arm, (table,) = arm_and_tables(robot, [recordings])
 
-    from armscope.calibration import calibrate as calibrated
+    from armscope.calibration.calibrate import calibrate as calibrated
     from armscope.calibration.export import export
     from armscope.check.report import check as check_table
 

@@ -9,8 +9,8 @@ from typing import Any
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from armscope.calibration import Calibration
-from armscope.calibration import calibrate as calibrate_arm
+from armscope.calibration.calibrate import calibrate as calibrate_arm
+from armscope.calibration.result import Calibration
 from armscope.check.motions import MotionCheck
 from armscope.check.preconditions import check_table as usable_rows
 from armscope.check.report import CheckReport

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.calibration import held_out_levels
+from armscope.calibration.held_out import held_out_levels
 from armscope.calibration.splits import random_split
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array, unheard

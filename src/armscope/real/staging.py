@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.calibration import calibrate
+from armscope.calibration.calibrate import calibrate
 from armscope.calibration.splits import random_split
 from armscope.core.grouping import named_configuration
 from armscope.core.inputs import InputError

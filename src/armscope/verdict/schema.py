@@ -13,6 +13,8 @@ from armscope.core.types import Number
 from armscope.verdict.effects import Cause, FoundEffect
 
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
+ANOTHER_MODEL = "another model"
+"""The kind of a notice that an arm of the library fits clearly better."""
 
 
 @dataclass(frozen=True)

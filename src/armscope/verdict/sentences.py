@@ -9,7 +9,7 @@ from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.schema import Background, Verdict
+from armscope.verdict.schema import ANOTHER_MODEL, Background, Verdict
 from armscope.verdict.wording import (
     BESIDE,
     IN_ALL,
@@ -29,9 +29,6 @@ from armscope.verdict.wording import (
     spelled,
     still_open,
 )
-
-ANOTHER_MODEL = "another model"
-"""The kind of a notice that an arm of the library fits clearly better."""
 
 MOST_TOLD = 3
 """More causes than this are counted, not told."""
