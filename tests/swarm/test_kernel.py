@@ -128,3 +128,11 @@ def test_each_swarm_has_its_own_box():
     )
     assert 2 <= found.positions[0, 0] <= 3
     assert -9 <= found.positions[1, 0] <= -8
+
+
+@pytest.mark.parametrize("engine", ["numba", "numpy"])
+@pytest.mark.parametrize("box", [1.0, [1.0] * 3, [1.0] * 5])
+def test_a_box_of_other_dimensions_is_refused_and_not_read_beyond_its_end(engine, box):
+    given = problems(2, 4, True)
+    with pytest.raises(ValueError, match=r"a box of \d dimensions for problems of 4 coefficients"):
+        minimise_least_squares(given, np.negative(box), box, spawn_generators(3, 2), None, engine)

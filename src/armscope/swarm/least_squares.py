@@ -40,7 +40,8 @@ def minimise_least_squares(
         As `minimise`, the fitness being the RMS residual.
 
     Raises:
-        ValueError: as `minimise`; an unknown engine, or one that cannot be used here.
+        ValueError: as `minimise`; a box of other dimensions than the problems; an unknown engine, or one that cannot be
+            used here.
     """
     settings = settings or SwarmSettings()
     if engine not in ENGINES:
@@ -49,13 +50,15 @@ def minimise_least_squares(
         raise ValueError(f"{len(generators)} generators for {len(problems.targets)} problems: one is needed for each")
     if engine == "numba" and not _kernel_can_run(generators):
         raise ValueError("engine = 'numba': needs numba installed and SFC64 generators (see spawn_generators)")
+    low, high = checked_box(lower, upper, len(generators))
+    if low.shape[1] != problems.targets.shape[1]:  # compiled code would read beyond its ends
+        raise ValueError(f"a box of {low.shape[1]} dimensions for problems of {problems.targets.shape[1]} coefficients")
     squared = replace(settings, threshold=_square_of(settings.threshold))
     if engine == "numpy" or not _kernel_can_run(generators):
-        result = minimise(problems.mean_squares, lower, upper, generators, squared)
+        result = minimise(problems.mean_squares, low, high, generators, squared)
     else:
         from armscope.swarm.kernel import run_kernel  # numba takes a third of a second to import
 
-        low, high = checked_box(lower, upper, len(generators))
         result = run_kernel(problems, low, high, generators, squared)
     return replace(result, fitness=np.sqrt(result.fitness), history=np.sqrt(result.history))
 
