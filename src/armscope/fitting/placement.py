@@ -178,19 +178,23 @@ class _Placement(NonlinearProblem[Frames, Array]):
         base = self.poses.base
         back = np.swapaxes(state.rotations, 1, 2)[base]
         seen = np.einsum("nij,nj->ni", back, self.poses.measured - state.translations[base])
-        self._last = state, self.poses.points(state.tools)
-        return np.asarray(seen - self._last[1])
+        return np.asarray(seen - self._points(state))
+
+    def _points(self, state: Frames) -> Array:
+        """(N, 3) tool points; a step asks for them twice."""
+        if self._last is None or self._last[0] is not state:
+            self._last = state, self.poses.points(state.tools)
+        return self._last[1]
 
     def quadratic(self, state: Frames, residual: Array) -> Quadratic:
         self.weights = self.weigh(residual)
-        poses, last = self.poses, self._last
-        points = last[1] if last is not None and last[0] is state else poses.points(state.tools)
+        points, turned = self._points(state), self.poses.turned
         n_bases, n_tools = len(state.rotations), len(state.tools)
         right = np.zeros(6 * n_bases + 3 * n_tools)
         matrix = np.zeros((len(right), len(right)))
         for base, tool, rows in self.together:
             at = np.concatenate([6 * base + np.arange(6), 6 * n_bases + 3 * tool + np.arange(3)])
-            X = _columns_of_one_frame(points[rows], poses.turned[rows]).reshape(-1, len(at))
+            X = _columns_of_one_frame(points[rows], turned[rows]).reshape(-1, len(at))
             weighted = X * np.repeat(self.weights[rows], 3)[:, None]
             matrix[at[:, None], at] += weighted.T @ X
             right[at] += weighted.T @ residual[rows].reshape(-1)
