@@ -36,6 +36,11 @@ class TellingRules(Constants):
         "times what small errors of any other place do at the tool, from which a family's worst place is told",
         "judgement: less is a matter of the poses",
     )
+    relieves: float = constant(
+        0.7,
+        "cosine of the phase from which a wave works against what its drive gives like a balancing spring",
+        "judgement: within 45 degrees of it; a spring's anchor need not stand upright",
+    )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"
     )

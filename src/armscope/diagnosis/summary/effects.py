@@ -14,6 +14,7 @@ from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
+from armscope.diagnosis.summary.balancing_spring import LOOK_FOR_A_SPRING, balancing_spring
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
@@ -29,6 +30,7 @@ from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.scene import Scene
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
+from armscope.verdict.wording import effect_in_words
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +82,12 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         rms = min(rms, _own_size(fit, part))
     apart = [discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
     named_as, title = specific_name(candidate, too_close(candidate, rivals, apart))
+    others, confirm = listed(rivals, apart), placed.effect.confirm
+    spring = balancing_spring(fit.model, part, basis.scene)
+    if spring is not None:
+        others, confirm = (spring, *others), f"{LOOK_FOR_A_SPRING} {confirm}"
+        if named_as == "effect":
+            named_as, title = "region", f"{title} or {effect_in_words(spring.effect, spring.location)}"
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     return FoundEffect(
@@ -95,11 +103,11 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         rms_at_tool_mm=rms,
         share=share,
         evidence_nats=float(_worth(state, search, chosen)),
-        alternatives=listed(rivals, apart),
+        alternatives=others,
         inclusion=basis.inclusion.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, basis.scene),
         physics=placed.effect.physics,
-        confirm=placed.effect.confirm,
+        confirm=confirm,
         cure=placed.effect.cure.words,
     )
 
