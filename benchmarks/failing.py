@@ -23,6 +23,7 @@ LINES = (
     "--help",
     "diagnose RECORDINGS -r BAD.yaml -o OUT",
     "diagnose BAD.csv -r ROBOT -o OUT",
+    "diagnose RECORDINGS -r OTHER -o OUT",
     "check BAD.csv -r ROBOT",
     "calibrate BAD.csv -r ROBOT -o OUT",
     "predict BAD.yaml RECORDINGS -o OUT.csv",
@@ -69,7 +70,11 @@ def main() -> None:
         (places["HOME"] / "predicted.csv").write_bytes((EXAMPLE / "recordings.csv").read_bytes())
         (places["HOME"] / "robot.yaml").write_bytes((EXAMPLE / "robot.yaml").read_bytes())
         places |= {"MODEL": MODEL, "URDF": URDF}
-        places |= {"ROBOT": EXAMPLE / "robot.yaml", "RECORDINGS": EXAMPLE / "recordings.csv"}
+        places |= {
+            "OTHER": ROOT / "config" / "robots" / "six-axis.yaml",
+            "ROBOT": EXAMPLE / "robot.yaml",
+            "RECORDINGS": EXAMPLE / "recordings.csv",
+        }
         print(f"{'armscope ...':45s} wall s  CPU s  (aim: {AIM_S} s)")
         for line in LINES:
             words = [_placed(word, places) for word in line.split()]
