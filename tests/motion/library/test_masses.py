@@ -10,7 +10,8 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
-from armscope.motion.library.masses import as_a_body, place_masses
+from armscope.motion.library.laws import Law
+from armscope.motion.library.masses import as_a_body, as_it_leans, place_masses
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.timing import stretches
@@ -82,3 +83,17 @@ def test_a_load_off_the_flange_is_one_cause(seed: int) -> None:
 def placed_on(arm: MovingArm) -> list[PlacedCause]:
     seen = seen_in(arm, list(stretches(moved(arm, 3, runs=2))), LIBRARY.still_rad)
     return list(place_masses(seen))
+
+
+def test_a_gravity_that_leans_keeps_its_size() -> None:
+    """2 degrees take 0.06 % off the pull downwards: a link was told to be lighter by as much."""
+    for arm in (robot(), robot(gravity_m_s2=[3.0, -4.0, -8.443])):
+        seen = seen_in(arm, list(stretches(moved(arm, 3, runs=2))), LIBRARY.still_rad)
+        (lean,) = [each for each in place_masses(seen) if each.cause is catalogue.GRAVITY]
+        down, values = arm.model.gravity.linear, np.array([0.03, -0.02])
+        sizes = []
+        for each in (lean, as_it_leans(lean, arm, values)):
+            assert isinstance(each.columns, Law)
+            sizes.append(np.linalg.norm(down + values @ np.array(each.columns.numbers).reshape(-1, 3)))
+        assert sizes[1] == pytest.approx(np.linalg.norm(down), rel=1e-12)
+        assert sizes[0] > 1.0005 * sizes[1]

@@ -14,7 +14,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.library.masses import as_a_body, at_its_place
+from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""
@@ -29,6 +29,10 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
             exact, rests = _exact(selected, number)
             placed[number], moved = exact, moved or not rests
+            continue
+        if cause.cause is catalogue.GRAVITY:
+            placed[number], rests = _leaning(selected, number)
+            moved = moved or not rests
             continue
         if cause.cause not in SCANNED or not isinstance(cause.columns, Law):
             continue
@@ -87,3 +91,16 @@ def _exact(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
     error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
     unsure = np.sqrt(np.sum((cause.inertial * error) ** 2, axis=1))
     return exact, bool(np.all(np.abs((exact.inertial - cause.inertial) @ values) <= NOISE.settled * unsure))
+
+
+def _leaning(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
+    """A leaning gravity whose pull keeps its size, and whether that was in its columns already, within errors."""
+    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
+    cause, values = layout.placed[number], selected.coefficients[columns]
+    exact = as_it_leans(cause, layout.arm, values)
+    if not (isinstance(cause.columns, Law) and isinstance(exact.columns, Law)):
+        return cause, True
+    before, after = (np.array(each.numbers).reshape(-1, 3) for each in (cause.columns, exact.columns))
+    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+    change = float(np.linalg.norm(values @ (after - before)))
+    return exact, change <= NOISE.settled * float(np.linalg.norm(error @ np.abs(before)))

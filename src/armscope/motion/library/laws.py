@@ -251,8 +251,10 @@ def _inert(m: Moment, joints: tuple[int, ...], sign: float) -> Array:
 
 
 def _lean(m: Moment, joints: tuple[int, ...], *leans: float) -> Array:
-    assert m.gravity is not None
-    return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
+    if m.gravity is not None:
+        return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
+    assert m.bodies is not None
+    return np.stack([m.bodies.arm.gravity_torques(m.motion[0], way) for way in np.array(leans).reshape(-1, 3)], axis=2)
 
 
 def _wound_up(m: Moment, joints: tuple[int, ...]) -> Array:

@@ -135,6 +135,30 @@ def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
             yield from _inertial(seen, catalogue.BODY, body, (("times", ""),), inertial[:, None])
 
 
+def as_it_leans(placed: PlacedCause, arm: MovingArm, values: Array) -> PlacedCause:
+    """A leaning gravity whose pull keeps its size: along the plumb line it loses what it gains across.
+
+    A base that leans by 2 degrees takes 0.06 % off the pull downwards; without that, a link was told to be lighter.
+
+    Args:
+        placed: of `catalogue.GRAVITY`.
+        arm: the arm as stated.
+        values: (2,) rad, by which it leans.
+
+    Returns:
+        It, with columns that give the exact pull at these numbers.
+    """
+    down, straight = arm.model.gravity.linear, leaning_gravity(arm.model.gravity.linear)
+    across = values @ straight
+    size = float(np.linalg.norm(down))
+    lost = size - np.sqrt(max(size**2 - float(across @ across), 0.0))
+    square = float(values @ values)
+    if square == 0 or not isinstance(placed.columns, Law):
+        return placed
+    exact = straight - np.outer(values / square, lost * down / size)
+    return replace(placed, columns=replace(placed.columns, numbers=tuple(map(float, exact.ravel()))))
+
+
 def _gravity(seen: Seen, every: tuple[int, ...]) -> Iterator[PlacedCause]:
     down = seen.arm.model.gravity.linear
     if np.linalg.norm(down) == 0:
