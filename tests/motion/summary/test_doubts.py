@@ -57,6 +57,9 @@ def test_a_size_whose_interval_is_nearly_as_wide_is_not_determined(gives_way: Mo
     ]
     assert told[0].startswith("Its size is not determined")
     assert told[1] == ""
+    powers = Parameter("square", "N m s^2/rad^2", -6.9, 3.0), Parameter("cube", "N m s^3/rad^3", -1.6, 0.7)
+    assert not doubts.determined(powers[:1])
+    assert doubts.determined(powers)
 
 
 def test_a_size_that_differs_is_doubtful_and_one_that_agrees_is_not(gives_way: MotionDiagnosis) -> None:

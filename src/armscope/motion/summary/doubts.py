@@ -50,8 +50,12 @@ def may_be_nothing(parameters: Sequence[Parameter]) -> bool:
 
 
 def determined(parameters: Sequence[Parameter]) -> bool:
-    """Whether a number that was fitted, if there is any, is clearly larger than half its interval."""
-    return not _all_within(parameters, NAMING.determined)
+    """Whether the only number that was fitted, if there is one, is clearly larger than half its interval.
+
+    Of several, each may be open where all together are sure: powers of one curve take each other's part.
+    """
+    several = sum(bool(np.isfinite(each.stderr)) for each in parameters) > 1
+    return several or not _all_within(parameters, NAMING.determined)
 
 
 def _all_within(parameters: Sequence[Parameter], share: float) -> bool:
