@@ -34,7 +34,7 @@ class NamingRules(Constants):
     borne_out: float = constant(
         0.15,
         "of a name's evidence that motion which took no part must bear out",
-        "measured: where something was planted 1.2 and more (14 kinds on own arms); the Panda's hand, known to "
+        "measured: where something was planted 1.2 and more (ten kinds on own arms); the Panda's hand, known to "
         "be absent, 0.25; masses of two links of the UR10e, without which nothing is foretold worse, 0.07 and 0.10",
         unit="1",
     )
