@@ -23,7 +23,7 @@ def compare(
         Path | None, typer.Option("--robot", "-r", help=f"the nominal arm; {ROBOT} in the first folder if left out")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="folder for comparison.json, history.csv and history.png")
+        Path | None, typer.Option("--output", "-o", help="folder for changes.html, comparison.json and history.csv")
     ] = None,
     arms: Annotated[
         bool, typer.Option("--arms", help="the tables are of several arms of one type: say which is unlike the others")
@@ -48,19 +48,17 @@ def compare(
     from armscope.comparison import compare as compare_recordings
 
     found = compare_recordings(arm, tables, arms)
+    page = None
     if output is not None:
-        from armscope.core.files import write_json, write_table
-        from armscope.report.figures.history import history_figure, history_table
-        from armscope.report.style import save_figure
+        from armscope.report.pages.changes import write_changes
 
-        write_json(output / "comparison.json", found.to_json())
-        write_table(output / "history.csv", history_table(found))
-        if found.changes:
-            save_figure(history_figure(found), output / "history.png", formats=("png", "svg"))
+        page = write_changes(found, output)
     if json:
         print_json(found.to_json())
     else:
         print(found.text())
+        if page is not None:
+            print(page)
 
 
 def _inside(path: Path, name: str) -> Path:

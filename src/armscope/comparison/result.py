@@ -7,7 +7,10 @@ from typing import Any, Literal
 
 from armscope.core.numerals import rounded, shown_unit, size_of
 from armscope.verdict.effects import INTERVAL
+from armscope.verdict.wording import capitalised
 
+MOST_TOLD = 3
+"""More changes than this are counted in the headline, not told."""
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
 
 
@@ -32,6 +35,11 @@ class Valued:
     since_first_stderrs: tuple[float, ...]
     difference: float
     interval_95: tuple[float, float]
+
+    @property
+    def left_open(self) -> bool:
+        """Whether the poses leave open how large it is in all recordings, though not how far it changed."""
+        return max(map(abs, self.values)) < INTERVAL * min(self.stderrs)
 
 
 @dataclass(frozen=True)
@@ -93,20 +101,38 @@ class Comparison:
     @property
     def headline(self) -> str:
         """The answer in one sentence."""
-        told = "; ".join(f"{each.title} {each.kind}{_by(each)} in {', '.join(each.where)}" for each in self.changes)
+        chance = f"p = {self.p_nothing_changed:.2g}"
+        said = f"{self.told} ({chance} that nothing changed)." if self.changes else ""
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
-        said = ""
-        if self.changes:
-            said = f"{told[:1].upper()}{told[1:]} (p = {self.p_nothing_changed:.2g} that nothing changed)."
-        elif among:
-            said = f"Nothing changed that these recordings show ({among}; p = {self.p_nothing_changed:.2g})."
-        if len(self.same_poses) > 1:
-            families = " / ".join(", ".join(family) for family in self.same_poses)
-            said += (
-                f" Poses or payloads differ between {families}, so whether anything changed from one to the other "
-                "cannot be told: record the same poses with the same payload again."
-            )
-        return said.strip()
+        if not said and among:
+            said = f"Nothing changed that these recordings show ({among}; {chance})."
+        return f"{said} {self.not_comparable}".strip()
+
+    @property
+    def told(self) -> str:
+        """What changed, as a clause; empty where nothing did."""
+        clauses = [
+            f"{each.title}{_or_another(each)} {each.kind}{_by(each)} in {', '.join(each.where)}"
+            for each in self.changes[:MOST_TOLD]
+        ]
+        more = len(self.changes) - len(clauses)
+        return capitalised("; ".join([*clauses, *([f"and {more} more"] if more > 0 else [])]))
+
+    @property
+    def not_comparable(self) -> str:
+        """Between which recordings nothing can be told; empty where all are of the same poses."""
+        if len(self.same_poses) < 2:
+            return ""
+        families = " / ".join(", ".join(family) for family in self.same_poses)
+        return (
+            f"Poses or payloads differ between {families}, so whether anything changed from one to the other "
+            "cannot be told: record the same poses with the same payload again."
+        )
+
+    def others(self, change: Change) -> tuple[str, ...]:
+        """The recordings of the same poses that a change is held against."""
+        family = next((each for each in self.same_poses if change.where[0] in each), self.names)
+        return tuple(name for name in family if name not in change.where)
 
     def text(self) -> str:
         """In words, a line per cause and number."""
@@ -117,6 +143,12 @@ class Comparison:
             if each.alternatives:
                 lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")
         return "\n".join(lines)
+
+
+def _or_another(change: Change) -> str:
+    """That the name is one of several: what these recordings don't tell apart is no finding."""
+    others = len(change.alternatives)
+    return f" (or one of {others} others that explain it as well)" if others > 1 else " (or another)" * others
 
 
 def _by(change: Change) -> str:
@@ -130,7 +162,7 @@ def _number_line(number: Valued) -> str:
     factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
     low, high = (_signed(factor * end) for end in number.interval_95)
     change = f"change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
-    if max(map(abs, number.values)) < INTERVAL * min(number.stderrs):
+    if number.left_open:
         return f"{number.name}: {change}; how large it is in all of them, these poses leave open"
     values = " -> ".join(_signed(factor * value) for value in number.values)
     return f"{number.name}: {values} {unit}; {change}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -104,7 +104,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         change="joint origin" if in_urdf else known.cure.change if known else "",
         motion="" if said_already else _motion(scene, cause.parts, about_mean=effect.nameless),
         instruction=instruction,
-        cure=_with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), effect),
+        cure=with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), told.values(), effect.effect),
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
     )
@@ -146,22 +146,31 @@ NO_NUMBER = "These recordings do not determine its number: let armscope compensa
 """Without masses, what gives way is known by the product with them, which the model file has."""
 
 
-def _with_numbers(rule: str, effect: FoundEffect) -> str:
-    """A rule, and behind it the numbers that its formula names: "Here offset = −0.1778° (−3.103 mrad)."."""
+def with_numbers(rule: str, parameters: Iterable[Parameter], effect: str) -> str:
+    """A rule, and behind it the numbers that its formula names: "Here offset = −0.1778° (−3.103 mrad).".
+
+    Args:
+        rule: of an effect's cure.
+        parameters: of the effect, those that are told.
+        effect: its name.
+
+    Returns:
+        The rule; it says so where nobody knows the number that it needs.
+    """
     formula = rule.partition(FORMULA)[2]
-    known = {p.name: p for p in effect.parameters if not implausible(p, effect)}
+    known = {p.name: p for p in parameters}
     named = [known[name] for name in dict.fromkeys(re.findall(r"\w+", formula)) if name in known]
     if named:
         return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}."
     return f"{rule} {NO_NUMBER}" if "compliance" in formula else rule
 
 
-def _number(parameter: Parameter, effect: FoundEffect) -> str:
+def _number(parameter: Parameter, effect: str) -> str:
     if parameter.name == "per_turn":
         return f"{parameter.value:g}"
     if parameter.unit == "rad" and parameter.name != "phase":
         return angle(parameter.value, parameter.stderr)
-    return read_parameter(parameter, effect.effect).value
+    return read_parameter(parameter, effect).value
 
 
 def _jump(effect: FoundEffect) -> str:

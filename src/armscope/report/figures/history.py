@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -12,6 +14,8 @@ from armscope.core.numerals import shown_unit
 from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8
+ACROSS, LONGEST = 60, 28
+"""Letters that stand beside each other under the panels, and of one name."""
 COLUMNS = [
     "recording", "effect", "location", "parameter", "unit", "value", "stderr", "since_first", "since_first_stderr",
 ]  # fmt: skip
@@ -45,11 +49,17 @@ def history_figure(found: Comparison) -> Figure:
         axes.plot(at, values, color="0.8", zorder=0)
         axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
-        axes.set_ylabel(f"change of\n{number.name}\n({unit})")
+        axes.set_ylabel(f"change of\n{number.name.replace('_', ' ')}\n({unit})")
         axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
         axes.margins(x=0.1, y=0.2)
-    panels[-1, 0].set_xticks(at, found.names)
+    crowded = len(found.names) * max(map(len, found.names)) > ACROSS
+    look: dict[str, Any] = {"rotation": 30, "ha": "right", "rotation_mode": "anchor"} if crowded else {}
+    panels[-1, 0].set_xticks(at, [_shortened(name) for name in found.names], **look)
     figure.supxlabel(
         f"recording (change since {found.names[0]}; bars: 95 %; filled: where it differs)", fontsize="small"
     )
     return figure
+
+
+def _shortened(name: str) -> str:
+    return name if len(name) <= LONGEST else f"{name[: LONGEST // 2]}…{name[-LONGEST // 2 + 1 :]}"

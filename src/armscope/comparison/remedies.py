@@ -1,0 +1,85 @@
+"""What to do about a change: find out why, confirm it, and take back what changed, as a work order words it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from armscope.comparison.result import Change, Comparison, Valued
+from armscope.physics.effect import Effect
+from armscope.physics.registry import effect_named
+from armscope.verdict.effects import INTERVAL, Parameter
+from armscope.verdict.entries import angle, length
+from armscope.verdict.tasks import with_numbers
+from armscope.verdict.wording import enumerated, read_parameter
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What to do, in words.
+
+    Attributes:
+        physics: what the cause is.
+        why: where to look for why it changed.
+        confirm: how to confirm it on the arm.
+        instruction, rule: what is done about it, by how much; and what else can be done.
+    """
+
+    physics: str
+    why: str
+    confirm: str
+    instruction: str
+    rule: str
+
+
+def remedy_of(found: Comparison, change: Change) -> Remedy:
+    """What to do about one change; its numbers are those of the change, not of all that is off.
+
+    Args:
+        found: the comparison.
+        change: one of its changes.
+
+    Returns:
+        The words; empty ones of an effect that is not installed any more.
+    """
+    known = effect_named(change.effect)
+    if known is None:
+        return Remedy("", _why(found, change), "", "", "")
+    differences = [difference_of(number) for number in change.parameters]
+    instruction = known.cure.instruction.format_map(_words(known, change.location, differences))
+    rule = with_numbers(known.cure.rule.replace("`", ""), differences, change.effect)
+    return Remedy(known.physics, _why(found, change), known.confirm, instruction, rule)
+
+
+def difference_of(number: Valued) -> Parameter:
+    """A number's change as a parameter, with the standard error that its interval stands for."""
+    low, high = number.interval_95
+    return Parameter(number.name, number.unit, number.difference, (high - low) / 2 / INTERVAL)
+
+
+def _why(found: Comparison, change: Change) -> str:
+    """Where to look first."""
+    others = found.others(change)
+    between = f"between {others[-1]} and {change.where[0]}" if others else f"before {change.where[0]}"
+    if change.kind in ("went", "shrank"):
+        return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
+    return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."
+
+
+def _words(known: Effect, location: str, differences: list[Parameter]) -> dict[str, str]:
+    """What instructions name (`armscope.verdict.tasks`), told of the change."""
+    by_name = {each.name: each for each in differences}
+    words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
+    words |= {"location": location, "size": "", "jump": "", "opposite": "what changed is taken back"}
+    told = (f"{each.name} {length(each.value, each.stderr)}" for each in differences if each.unit == "mm")
+    turned = (f"{each.name} {angle(each.value, each.stderr)}" for each in differences if each.unit == "rad")
+    words["row"] = f"what stood there and {enumerated([*told, *turned])}"
+    if "offset" in by_name:
+        words["zero"] = f"it moved by {angle(by_name['offset'].value, by_name['offset'].stderr)}"
+    if "compliance" in by_name:
+        words["size"] = f" (minus {read_parameter(by_name['compliance'], known.name).value} × load)"
+    if "coupling" in by_name:
+        back = replace(by_name["coupling"], value=-by_name["coupling"].value)
+        words["coefficient"] = f"what stood there and {read_parameter(back, known.name).value} together"
+    if "ratio" in by_name:
+        words["ratio"] = f"{1 / (1 + by_name['ratio'].value):.6f}"
+    return words

@@ -1,0 +1,158 @@
+"""changes.html: what changed between recordings of one arm, on one page that needs no network."""
+
+from __future__ import annotations
+
+import importlib.metadata
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from armscope.comparison import Change, Comparison, Valued
+from armscope.comparison.remedies import Remedy, difference_of, remedy_of
+from armscope.core.files import write_json, write_table
+from armscope.core.numerals import shown_unit
+from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
+from armscope.report.html import write_page
+from armscope.report.style import save_figure
+from armscope.verdict.wording import capitalised, decimals_for, enumerated, millimetres, places_in_words, read_parameter
+
+PAGE, DATA, TABLE, FIGURE = "changes.html", "comparison.json", "history.csv", "history.png"
+FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
+LEFT_OPEN = "left open by these poses"
+SMALLEST = 1e-6
+"""Smaller probabilities are not told apart: no test's assumptions hold so far out."""
+RARE = 0.01
+"""Below it a probability is told as one in so many."""
+
+
+@dataclass(frozen=True)
+class ChangedNumber:
+    """A number of a change: what it is, before and after, and its difference with the 95 % interval."""
+
+    label: str
+    before: str
+    after: str
+    difference: str
+    also: str
+    interval: str
+
+
+@dataclass(frozen=True)
+class ChangeCard:
+    """What a change's card shows."""
+
+    title: str
+    kind: str
+    where: str
+    others: str
+    size: str
+    rows: tuple[ChangedNumber, ...]
+    remedy: Remedy
+    alternatives: tuple[str, ...]
+
+
+def write_changes(found: Comparison, folder: Path) -> Path:
+    """Write changes.html, comparison.json, history.csv and, where something changed, history.png and .svg.
+
+    Args:
+        found: the comparison.
+        folder: where to.
+
+    Returns:
+        The page.
+    """
+    history = history_table(found)
+    write_json(folder / DATA, found.to_json())
+    write_table(folder / TABLE, history)
+    if found.changes:
+        save_figure(history_figure(found), folder / FIGURE, formats=("png", "svg"))
+    numbers = sum(len(each.parameters) for each in found.changes)
+    tag, answer = _answer(found)
+    first = f"{found.told}." if found.changes else found.headline
+    write_page(
+        folder / PAGE,
+        "changes.html.j2",
+        version=importlib.metadata.version("armscope"),
+        found=found,
+        headline=first,
+        rest=found.not_comparable if found.changes else "",
+        tag=tag,
+        answer=answer,
+        tiles=_tiles(found),
+        cards=[_card(found, change) for change in found.changes],
+        figure=folder / "history.svg" if found.changes else None,
+        left_out=max(0, numbers - MOST_PANELS),
+        history=history,
+        files=FILES[1:] if found.changes else (DATA, TABLE),
+    )
+    return folder / PAGE
+
+
+def _answer(found: Comparison) -> tuple[str, str]:
+    """Colour and words of the answer."""
+    if found.changes:
+        return "fails", "changed"
+    return ("holds", "no change seen") if found.tried else ("depends", "cannot be told")
+
+
+def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
+    """(number, what it is, details) for the strip under the headline."""
+    changes = len(found.changes)
+    tiles = [(str(sum(found.rows)), "rows that were used", f"in {len(found.names)} recordings")]
+    tiles.append((millimetres(found.noise_mm), "left unexplained", "standard deviation per axis, all recordings"))
+    if not found.tried:
+        return tiles
+    tried = f"surest of {found.tried} possible changes, all counted"
+    counted = "change" if changes == 1 else "changes"
+    named = (str(changes), counted, f"named where p is below {found.level:g}")
+    return [named, (in_odds(found.p_nothing_changed), "is how often chance alone gives this", tried), *tiles]
+
+
+def in_odds(p: float) -> str:
+    """A probability as one reads it: "47 %", "1 in 19 000"."""
+    if p < SMALLEST:
+        return "less than 1 in a million"
+    return f"{100 * p:.0f} %" if p >= RARE else f"1 in {float(f'{1 / p:.2g}'):,.0f}".replace(",", "\u00a0")
+
+
+def _alike(titles: Sequence[str]) -> list[str]:
+    """Causes of one kind together: "link geometry at links 2 and 3"."""
+    kinds: dict[str, list[str]] = {}
+    for title in titles:
+        kind, _, place = title.partition(" at ")
+        kinds.setdefault(kind, []).append(place)
+    return [f"{kind} at {places_in_words(places)}" if any(places) else kind for kind, places in kinds.items()]
+
+
+def _card(found: Comparison, change: Change) -> ChangeCard:
+    others = found.others(change)
+    return ChangeCard(
+        title=capitalised(change.title),
+        kind=change.kind,
+        where=enumerated(change.where),
+        others=enumerated(others),
+        size=millimetres(change.rms_mm),
+        rows=tuple(_row(found, change, others, number) for number in change.parameters),
+        remedy=remedy_of(found, change),
+        alternatives=tuple(_alike(change.alternatives)),
+    )
+
+
+def _row(found: Comparison, change: Change, others: Sequence[str], number: Valued) -> ChangedNumber:
+    """A number before and after: the mean over the recordings without and with the change."""
+    difference = difference_of(number)
+    reading = read_parameter(difference, change.effect)
+    before = float(np.mean(np.array(number.values)[np.isin(found.names, others)]))
+    after = before + number.difference
+    factor, unit = shown_unit(number.unit, max(abs(before), abs(after), abs(number.difference)))
+    digits = decimals_for(factor * difference.stderr)
+
+    def told(value: float) -> str:
+        shown = f"{round(factor * value, digits) + 0.0:.{digits}f} {unit}".replace("-", "−")
+        return LEFT_OPEN if number.left_open else shown
+
+    plus = "+" if number.difference > 0 else ""
+    also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
+    return ChangedNumber(reading.label, told(before), told(after), f"{plus}{reading.value}", also, reading.interval)

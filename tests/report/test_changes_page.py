@@ -1,0 +1,128 @@
+"""The page of a comparison: what changed, by how much and what to do about it, from whatever names the files hold."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from typer.testing import CliRunner
+
+from armscope.cli import app
+from armscope.comparison import Change, Comparison, Valued, compare
+from armscope.report.pages.changes import LEFT_OPEN, in_odds, write_changes
+from tests.comparison.test_changes import ARM, session
+from tests.report.test_hostile_names import EVIL, parsed
+
+SINCE = (0.0, 8.7e-4), (0.0, 1e-5)
+NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, *SINCE, 8.7e-4, (8.5e-4, 8.9e-4))
+CHANGE = Change("joint_offset", "joint 3", "joint offset at joint 3", ("after",), "grew", 0.296, 1e-9, (NUMBER,), ())
+FOUND = Comparison(
+    "arm", ("before", "after"), (70, 71), 0.03, 1e-9, 0.05, 100, (CHANGE,), same_poses=(("before", "after"),)
+)
+
+
+def page_of(found, folder):
+    return write_changes(found, folder).read_text()
+
+
+def words_of(found, folder):
+    return " ".join(
+        parsed(page_of(found, folder).replace("<td", " <td").replace("<br", " <br")).text.replace("\u00a0", " ").split()
+    )
+
+
+def test_a_change_is_told_with_its_numbers_and_what_to_do(tmp_path):
+    said = words_of(FOUND, tmp_path)
+    assert "Joint offset at joint 3 grew in after." in said
+    assert "0.296 mm" in said
+    assert "0.900 mrad 1.770 mrad +0.870 mrad +0.0498° 0.850 … 0.890 mrad" in said
+    assert "between before and after" in said
+    assert "Reset the zero of joint 3: it moved by +0.0498° (+0.870 mrad ± 0.020)." in said
+    assert "commanded = wanted - offset" in said
+    assert "Here offset = +0.0498°" in said, "by the change, not by all that is off"
+    assert "less than 1 in a million" in said
+    assert json.loads((tmp_path / "comparison.json").read_text())["changes"][0]["kind"] == "grew"
+    assert (tmp_path / "history.png").is_file()
+    assert '<img src="data:image/svg+xml' in (tmp_path / "changes.html").read_text()
+
+
+def test_what_cannot_be_told_apart_is_to_be_confirmed_first(tmp_path):
+    rivals = ("link geometry at link 3", "link geometry at link 2", "backlash at joint 2")
+    said = words_of(replace(FOUND, changes=(replace(CHANGE, alternatives=rivals),)), tmp_path)
+    assert "Joint offset at joint 3 (or one of 3 others that explain it as well) grew in after." in said
+    assert "link geometry at links 2 and 3; backlash at joint 2" in said
+    assert "Once it is confirmed: Reset the zero" in said
+
+
+def test_a_number_that_the_poses_leave_open_is_told_without_digits(tmp_path):
+    unknown = replace(NUMBER, stderrs=(8e-3, 8e-3))
+    said = words_of(replace(FOUND, changes=(replace(CHANGE, parameters=(unknown,)),)), tmp_path)
+    assert LEFT_OPEN in said
+    assert "1.770" not in said
+    assert "+0.870 mrad" in said
+
+
+@pytest.mark.parametrize(
+    ("p", "told"), [(1.0, "100 %"), (0.474, "47 %"), (5.3e-5, "1 in 19\u00a0000"), (1e-99, "less than 1 in a million")]
+)
+def test_a_probability_is_told_as_one_reads_it(p, told):
+    assert in_odds(p) == told
+
+
+def test_where_nothing_changed_the_page_says_so_and_draws_nothing(tmp_path):
+    said = words_of(replace(FOUND, changes=(), p_nothing_changed=0.4), tmp_path)
+    assert "Nothing changed that these recordings show (before, after; p = 0.4)." in said
+    assert "no change seen" in said
+    assert "History" not in said
+    assert not (tmp_path / "history.png").exists()
+
+
+def test_recordings_of_other_poses_are_not_called_unchanged(tmp_path):
+    apart = (("before",), ("after",))
+    said = words_of(replace(FOUND, changes=(), tried=0, p_nothing_changed=1.0, same_poses=apart), tmp_path)
+    assert "cannot be told" in said
+    assert "no change seen" not in said
+
+
+def test_hostile_names_are_shown_and_never_obeyed(tmp_path):
+    names = (EVIL, f"{EVIL}2")
+    change = replace(CHANGE, where=names[1:], alternatives=(EVIL,))
+    evil = replace(FOUND, arm=EVIL, names=names, changes=(change,), same_poses=(names,))
+    page = parsed(page_of(evil, tmp_path))
+    assert page.scripts == page.handlers == []
+    assert page.text.count(EVIL) > 5
+
+
+def test_the_same_input_gives_the_same_bytes_and_no_file_of_an_earlier_run_stays(tmp_path):
+    import pandas as pd
+
+    files = {}
+    for name, table in {"a": session(1, rows=40), "b": session(2, rows=40, offsets={3: 9e-4})}.items():
+        columns = {f"q{j + 1}_rad": table.motor_angles[:, j] for j in range(6)}
+        columns |= {f"{axis}_mm": table.positions[:, k] * 1e3 for k, axis in enumerate("xyz")}
+        files[name] = tmp_path / f"{name}.csv"
+        pd.DataFrame(columns).to_csv(files[name], index=False)
+    robot = "examples/five-effects/robot.yaml"
+
+    def run(output, *tables):
+        words = ["compare", *map(str, tables), "-r", robot, "-o", str(output)]
+        done = CliRunner().invoke(app, words)
+        assert done.exit_code == 0, done.exception
+        assert done.stdout.splitlines()[-1] == str(output / "changes.html")
+        return {path.name: path.read_bytes() for path in output.iterdir() if path.is_file()}
+
+    once, again = run(tmp_path / "1", *files.values()), run(tmp_path / "2", *files.values())
+    assert once == again
+    assert {"changes.html", "comparison.json", "history.csv", "history.png", "history.svg"} == set(once)
+    same = tmp_path / "c.csv"
+    pd.DataFrame(columns).iloc[:20].to_csv(same, index=False)
+    pd.DataFrame(columns).iloc[20:].to_csv(files["a"], index=False)
+    left = run(tmp_path / "1", files["a"], same)
+    assert {"changes.html", "comparison.json", "history.csv"} == set(left), "no figure of an earlier comparison"
+
+
+def test_a_planted_change_reaches_the_page(tmp_path):
+    found = compare(ARM, {"before": session(3, rows=40), "after": session(4, rows=40, offsets={3: 9e-4})})
+    said = words_of(found, tmp_path)
+    assert found.told in said
+    assert found.changes[0].location == "joint 3"
+    assert "zero is off by" in said
