@@ -134,3 +134,15 @@ def test_another_base_and_tool_are_no_change_and_one_recording_is_none():
         compare(ARM, {"a": session(1)})
     content = compare(ARM, {"a": session(3), "b": session(4)}).to_json()
     assert content["format"] == "armscope comparison 1"
+
+
+def test_what_is_left_of_a_recording_is_its_noise_once_the_change_is_taken_in():
+    """Planted: noise of 0.03 mm in one and 0.06 mm in the other; 140 rows hold fewer free numbers than they have."""
+    tables = {"a": session(61, rows=140), "b": session(62, rows=140, offsets={2: 1e-3}, noise_mm=0.06)}
+    left = compare(ARM, tables).left
+    for each, noise in zip(left, (0.03, 0.06), strict=True):
+        assert each.frames_mm > each.shared_mm > 1.5 * each.changes_mm
+        assert 0.7 * noise < each.changes_mm < 1.2 * noise
+    assert left[0].frames_mm == pytest.approx(compare(ARM, tables | {"b": session(63)}).left[0].frames_mm), (
+        "what base and tool leave of one recording is its own affair"
+    )

@@ -7,8 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.comparison import Change, Comparison, Valued, compare
-from armscope.report.pages.changes import LEFT_OPEN, in_odds, write_changes
+from armscope.comparison import Change, Comparison, Left, Valued, compare
+from armscope.comparison.shared_model import PRIOR_MM
+from armscope.report.pages.changes import LEFT_OPEN, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
 from tests.report.test_hostile_names import EVIL, parsed
 
@@ -16,8 +17,9 @@ SINCE = (0.0, 8.7e-4), (0.0, 1e-5)
 NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, *SINCE, 8.7e-4, (8.5e-4, 8.9e-4))
 CHANGE = Change("joint_offset", "joint 3", "joint offset at joint 3", ("after",), "grew", 0.296, 1e-9, (NUMBER,), ())
 FOUND = Comparison(
-    "arm", ("before", "after"), (70, 71), 0.03, 1e-9, 0.05, 100, (CHANGE,), same_poses=(("before", "after"),)
-)
+    "arm", ("before", "after"), (70, 71), 0.03, 1e-9, 0.05, 100, (CHANGE,), (("before", "after"),),
+    (Left(1.37, 0.121, 0.031), Left(1.41, 0.133, 0.032)),
+)  # fmt: skip
 
 
 def page_of(found, folder):
@@ -46,10 +48,10 @@ def test_a_change_is_told_with_its_numbers_and_what_to_do(tmp_path):
 
 
 def test_what_cannot_be_told_apart_is_to_be_confirmed_first(tmp_path):
-    rivals = ("link geometry at link 3", "link geometry at link 2", "backlash at joint 2")
+    rivals = ("link geometry at link 3", "link geometry at link 2", "base compliance at base")
     said = words_of(replace(FOUND, changes=(replace(CHANGE, alternatives=rivals),)), tmp_path)
     assert "Joint offset at joint 3 (or one of 3 others that explain it as well) grew in after." in said
-    assert "link geometry at links 2 and 3; backlash at joint 2" in said
+    assert "link geometry at links 2 and 3; base compliance." in said
     assert "Once it is confirmed: Reset the zero" in said
 
 
@@ -126,3 +128,13 @@ def test_a_planted_change_reaches_the_page(tmp_path):
     assert found.told in said
     assert found.changes[0].location == "joint 3"
     assert "zero is off by" in said
+
+
+def test_every_recording_has_its_rows_and_what_is_left_of_it(tmp_path):
+    said = words_of(FOUND, tmp_path)
+    assert "before 70 after 1.37 0.121 0.0310" in said
+    assert "after 71 before 1.41 0.133 0.0320" in said
+    apart = recordings_table(replace(FOUND, changes=(), same_poses=(("before",), ("after",))))
+    assert apart["compared with"].tolist() == ["none: other poses or payload"] * 2
+    assert "and the changes (mm)" not in apart, "nothing changed, so it is the column before"
+    assert f"prior of {PRIOR_MM:g} mm" in said

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from armscope.comparison.result import Change, Comparison, Kind, Valued
+from armscope.comparison.result import Change, Comparison, Kind, Left, Valued
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import Possible, Scored, SharedModel
 from armscope.core.types import Array
@@ -74,6 +74,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         level=LEVEL,
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
+        left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
     )
 

@@ -66,6 +66,28 @@ class Change:
     parameters: tuple[Valued, ...]
     alternatives: tuple[str, ...]
 
+    @property
+    def title_with_doubt(self) -> str:
+        """The title, and that it is one of several: what these recordings don't tell apart is no finding."""
+        others = len(self.alternatives)
+        doubt = f" (or one of {others} others that explain it as well)" if others > 1 else " (or another)" * others
+        return f"{self.title}{doubt}"
+
+
+@dataclass(frozen=True)
+class Left:
+    """What is left of a recording, RMS per axis in mm, on all its rows that could be used.
+
+    Attributes:
+        frames_mm: once base and tool of its own are placed.
+        shared_mm: with what all recordings share, too.
+        changes_mm: with the changes, too.
+    """
+
+    frames_mm: float
+    shared_mm: float
+    changes_mm: float
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -82,6 +104,7 @@ class Comparison:
         tried: how many causes times places to change were tried.
         changes: the surest first.
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
+        left: what is left of each recording, by what is explained.
     """
 
     arm: str
@@ -93,6 +116,7 @@ class Comparison:
     tried: int
     changes: tuple[Change, ...]
     same_poses: tuple[tuple[str, ...], ...] = ()
+    left: tuple[Left, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain data."""
@@ -112,7 +136,7 @@ class Comparison:
     def told(self) -> str:
         """What changed, as a clause; empty where nothing did."""
         clauses = [
-            f"{each.title}{_or_another(each)} {each.kind}{_by(each)} in {', '.join(each.where)}"
+            f"{each.title_with_doubt} {each.kind}{_by(each)} in {', '.join(each.where)}"
             for each in self.changes[:MOST_TOLD]
         ]
         more = len(self.changes) - len(clauses)
@@ -143,12 +167,6 @@ class Comparison:
             if each.alternatives:
                 lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")
         return "\n".join(lines)
-
-
-def _or_another(change: Change) -> str:
-    """That the name is one of several: what these recordings don't tell apart is no finding."""
-    others = len(change.alternatives)
-    return f" (or one of {others} others that explain it as well)" if others > 1 else " (or another)" * others
 
 
 def _by(change: Change) -> str:

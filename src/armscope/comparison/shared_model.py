@@ -154,6 +154,20 @@ class SharedModel:
         """Of what is left, per axis, mm^2."""
         return self._left(*self._base(taken))[0]
 
+    def left_mm(self, taken: Sequence[Possible]) -> list[Array]:
+        """What frames leave, what is shared beside them, and changes, too: three of (sets,) RMS per axis, mm."""
+        none = np.zeros(self.frames.shape[1])
+        return [
+            np.sqrt(np.bincount(self.group, self._left_over(*base) ** 2) / np.bincount(self.group))
+            for base in ((self.frames, none), self._base(()), self._base(taken))
+        ]
+
+    def _left_over(self, base: Array, penalty: Array) -> Array:
+        """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
+        stacked = np.vstack([base, np.diag(np.sqrt(penalty))])
+        values = np.linalg.lstsq(stacked, np.concatenate([self.residual, np.zeros(len(penalty))]), rcond=None)[0]
+        return np.asarray((self.residual - base @ values) / self.weight)
+
     def own_values(self, placed: Placed, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
         """An effect with a value of its own in every recording.
 

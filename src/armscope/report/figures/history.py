@@ -50,7 +50,8 @@ def history_figure(found: Comparison) -> Figure:
         axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
         axes.set_ylabel(f"change of\n{number.name.replace('_', ' ')}\n({unit})")
-        axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
+        if number is each.parameters[0]:
+            axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
         axes.margins(x=0.1, y=0.2)
     crowded = len(found.names) * max(map(len, found.names)) > ACROSS
     look: dict[str, Any] = {"rotation": 30, "ha": "right", "rotation_mode": "anchor"} if crowded else {}

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
+from armscope.comparison.shared_model import PRIOR_MM
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
@@ -70,7 +72,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         save_figure(history_figure(found), folder / FIGURE, formats=("png", "svg"))
     numbers = sum(len(each.parameters) for each in found.changes)
     tag, answer = _answer(found)
-    first = f"{found.told}." if found.changes else found.headline
+    first = f"{found.told}." if found.changes else found.headline.replace("p = ", "p\u00a0=\u00a0")
     write_page(
         folder / PAGE,
         "changes.html.j2",
@@ -85,6 +87,8 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         figure=folder / "history.svg" if found.changes else None,
         left_out=max(0, numbers - MOST_PANELS),
         history=history,
+        recordings=recordings_table(found),
+        prior_mm=PRIOR_MM,
         files=FILES[1:] if found.changes else (DATA, TABLE),
     )
     return folder / PAGE
@@ -110,6 +114,23 @@ def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
     return [named, (in_odds(found.p_nothing_changed), "is how often chance alone gives this", tried), *tiles]
 
 
+def recordings_table(found: Comparison) -> pd.DataFrame:
+    """What was compared with what, and what is left of each recording (RMS per axis, mm)."""
+    rows = []
+    for number, name in enumerate(found.names):
+        family = next((each for each in found.same_poses if name in each), found.names)
+        row = {"recording": name, "rows": found.rows[number]}
+        row["compared with"] = enumerated([each for each in family if each != name]) or "none: other poses or payload"
+        if found.left:
+            left = found.left[number]
+            row["base and tool placed (mm)"] = left.frames_mm
+            row["and what all share (mm)"] = left.shared_mm
+            if found.changes:
+                row["and the changes (mm)"] = left.changes_mm
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
 def in_odds(p: float) -> str:
     """A probability as one reads it: "47 %", "1 in 19 000"."""
     if p < SMALLEST:
@@ -123,13 +144,15 @@ def _alike(titles: Sequence[str]) -> list[str]:
     for title in titles:
         kind, _, place = title.partition(" at ")
         kinds.setdefault(kind, []).append(place)
-    return [f"{kind} at {places_in_words(places)}" if any(places) else kind for kind, places in kinds.items()]
+    told = {kind: places_in_words(places) for kind, places in kinds.items()}
+    # "instrument scale at instrument" says its place twice
+    return [kind if place in kind else f"{kind} at {place}" for kind, place in told.items()]
 
 
 def _card(found: Comparison, change: Change) -> ChangeCard:
     others = found.others(change)
     return ChangeCard(
-        title=capitalised(change.title),
+        title=capitalised(change.title_with_doubt),
         kind=change.kind,
         where=enumerated(change.where),
         others=enumerated(others),
