@@ -126,7 +126,10 @@ def test_of_a_series_the_recording_from_which_on_it_changed():
 
 def test_of_several_arms_the_one_that_is_unlike_the_others():
     arms = {name: session(20 + n, offsets={2: 4e-4} if name == "C" else {}) for n, name in enumerate("ABCD")}
-    assert compare(ARM, arms, of_arms=True).changes[0].where == ("C",)
+    found = compare(ARM, arms, of_arms=True)
+    assert found.changes[0].where == ("C",)
+    assert "in C" in found.headline
+    assert "that all are alike" in found.headline
 
 
 def test_another_base_and_tool_are_no_change_and_one_recording_is_none():

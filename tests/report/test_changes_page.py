@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from armscope.cli import app
 from armscope.comparison import Change, Comparison, Left, Valued, compare
 from armscope.comparison.shared_model import PRIOR_MM
-from armscope.report.pages.changes import LEFT_OPEN, in_odds, recordings_table, write_changes
+from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
 from tests.report.test_hostile_names import EVIL, parsed
 
@@ -138,3 +138,29 @@ def test_every_recording_has_its_rows_and_what_is_left_of_it(tmp_path):
     assert apart["compared with"].tolist() == ["none: other poses or payload"] * 2
     assert "and the changes (mm)" not in apart, "nothing changed, so it is the column before"
     assert f"prior of {PRIOR_MM:g} mm" in said
+
+
+def test_of_many_recordings_the_first_and_the_last_are_named():
+    assert first_to_last("abcd") == "a, b, c and d"
+    assert first_to_last("abcdefg") == "a … g (7 recordings)"
+    names = tuple("abcdefg")
+    later = replace(CHANGE, where=names[2:])
+    long = replace(FOUND, names=names, changes=(later,), rows=(70,) * 7, same_poses=(names,), left=())
+    assert long.told.endswith("grew in c and the 4 after it")
+    assert recordings_table(long)["compared with"].tolist() == ["all others"] * 7
+
+
+def test_of_several_arms_the_page_says_which_is_unlike_the_others(tmp_path):
+    names, since = ("A", "B", "C"), (0.0, 8.7e-4, 0.0)
+    number = replace(NUMBER, values=(9e-4, 1.77e-3, 9e-4), stderrs=(1e-4,) * 3, since_first=since)
+    change = replace(CHANGE, where=("B",), parameters=(replace(number, since_first_stderrs=(0.0, 1e-5, 1e-5)),))
+    arms = replace(FOUND, names=names, rows=(70,) * 3, changes=(change,), same_poses=(names,), left=(), of_arms=True)
+    said = words_of(arms, tmp_path)
+    assert "Joint offset at joint 3 is larger in B than in the others." in said
+    assert "unlike the others" in said
+    assert "0.900 mrad 1.770 mrad +0.870 mrad" in said, "the mean of the others, and B"
+    assert "how B was assembled" in said
+    assert "it differs by +0.0498°" in said
+    for of_time in ("crash", "History", "before", "What changed", "nothing changed"):
+        assert of_time not in said.partition("What was assumed")[0].partition("}")[2].rpartition("}")[2]
+    assert "No arm is unlike the others" in words_of(replace(arms, changes=(), p_nothing_changed=0.4), tmp_path)

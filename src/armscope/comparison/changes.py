@@ -74,6 +74,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         level=LEVEL,
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
+        of_arms=of_arms,
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
     )

@@ -45,7 +45,8 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     if known is None:
         return Remedy("", _why(found, change), "", "", "")
     differences = [difference_of(number) for number in change.parameters]
-    instruction = known.cure.instruction.format_map(_words(known, change.location, differences))
+    verb = "it differs" if found.of_arms else "it moved"
+    instruction = known.cure.instruction.format_map(_words(known, change.location, differences, verb))
     rule = with_numbers(known.cure.rule.replace("`", ""), differences, change.effect)
     return Remedy(known.physics, _why(found, change), known.confirm, instruction, rule)
 
@@ -59,14 +60,26 @@ def difference_of(number: Valued) -> Parameter:
 def _why(found: Comparison, change: Change) -> str:
     """Where to look first."""
     others = found.others(change)
+    if found.of_arms:
+        return f"Look at what is done to each arm alone: how {change.where[0]} was assembled, mastered and mounted."
     between = f"between {others[-1]} and {change.where[0]}" if others else f"before {change.where[0]}"
     if change.kind in ("went", "shrank"):
         return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
     return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."
 
 
-def _words(known: Effect, location: str, differences: list[Parameter]) -> dict[str, str]:
-    """What instructions name (`armscope.verdict.tasks`), told of the change."""
+def _words(known: Effect, location: str, differences: list[Parameter], verb: str) -> dict[str, str]:
+    """What instructions name (`armscope.verdict.tasks`), told of the change.
+
+    Args:
+        known: the effect.
+        location: where.
+        differences: of its parameters.
+        verb: what a zero did.
+
+    Returns:
+        The words by name.
+    """
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
     words |= {"location": location, "size": "", "jump": "", "opposite": "what changed is taken back"}
@@ -74,7 +87,7 @@ def _words(known: Effect, location: str, differences: list[Parameter]) -> dict[s
     turned = (f"{each.name} {angle(each.value, each.stderr)}" for each in differences if each.unit == "rad")
     words["row"] = f"what stood there and {enumerated([*told, *turned])}"
     if "offset" in by_name:
-        words["zero"] = f"it moved by {angle(by_name['offset'].value, by_name['offset'].stderr)}"
+        words["zero"] = f"{verb} by {angle(by_name['offset'].value, by_name['offset'].stderr)}"
     if "compliance" in by_name:
         words["size"] = f" (minus {read_parameter(by_name['compliance'], known.name).value} × load)"
     if "coupling" in by_name:

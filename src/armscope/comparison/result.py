@@ -7,10 +7,18 @@ from typing import Any, Literal
 
 from armscope.core.numerals import rounded, shown_unit, size_of
 from armscope.verdict.effects import INTERVAL
-from armscope.verdict.wording import capitalised
+from armscope.verdict.wording import capitalised, enumerated
 
 MOST_TOLD = 3
 """More changes than this are counted in the headline, not told."""
+MOST_NAMED = 3
+"""Recordings with a change, which are told by name; of more, the first."""
+UNLIKE = {
+    "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",
+    "grew": "is larger in {where} than in {others}", "shrank": "is smaller in {where} than in {others}",
+    "changed": "differs{by} in {where} from {others}",
+}  # fmt: skip
+"""What a change is called where recordings are of several arms."""
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
 
 
@@ -105,6 +113,7 @@ class Comparison:
         changes: the surest first.
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
         left: what is left of each recording, by what is explained.
+        of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
     """
 
     arm: str
@@ -117,6 +126,7 @@ class Comparison:
     changes: tuple[Change, ...]
     same_poses: tuple[tuple[str, ...], ...] = ()
     left: tuple[Left, ...] = ()
+    of_arms: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """As plain data."""
@@ -126,19 +136,18 @@ class Comparison:
     def headline(self) -> str:
         """The answer in one sentence."""
         chance = f"p = {self.p_nothing_changed:.2g}"
-        said = f"{self.told} ({chance} that nothing changed)." if self.changes else ""
+        nothing = "all are alike" if self.of_arms else "nothing changed"
+        said = f"{self.told} ({chance} that {nothing})." if self.changes else ""
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
         if not said and among:
-            said = f"Nothing changed that these recordings show ({among}; {chance})."
+            alike = "No arm is unlike the others" if self.of_arms else "Nothing changed"
+            said = f"{alike} that these recordings show ({among}; {chance})."
         return f"{said} {self.not_comparable}".strip()
 
     @property
     def told(self) -> str:
         """What changed, as a clause; empty where nothing did."""
-        clauses = [
-            f"{each.title_with_doubt} {each.kind}{_by(each)} in {', '.join(each.where)}"
-            for each in self.changes[:MOST_TOLD]
-        ]
+        clauses = [f"{each.title_with_doubt} {self.became(each)}" for each in self.changes[:MOST_TOLD]]
         more = len(self.changes) - len(clauses)
         return capitalised("; ".join([*clauses, *([f"and {more} more"] if more > 0 else [])]))
 
@@ -149,9 +158,20 @@ class Comparison:
             return ""
         families = " / ".join(", ".join(family) for family in self.same_poses)
         return (
-            f"Poses or payloads differ between {families}, so whether anything changed from one to the other "
-            "cannot be told: record the same poses with the same payload again."
+            f"Poses or payloads differ between {families}, so whether anything "
+            f"{'differs' if self.of_arms else 'changed'} from one to the other cannot be told: "
+            "record the same poses with the same payload again."
         )
+
+    def became(self, change: Change) -> str:
+        """What became of a cause, and where: "grew in after"; of arms, how one differs from the others."""
+        later = len(change.where) - 1
+        where = enumerated(change.where) if later < MOST_NAMED else f"{change.where[0]} and the {later} after it"
+        if not self.of_arms:
+            return f"{change.kind}{_by(change)} in {where}"
+        others = self.others(change)
+        told = others[0] if len(others) == 1 else "the others"
+        return UNLIKE[change.kind].format(where=where, others=told, by=_by(change))
 
     def others(self, change: Change) -> tuple[str, ...]:
         """The recordings of the same poses that a change is held against."""
@@ -162,7 +182,8 @@ class Comparison:
         """In words, a line per cause and number."""
         lines = [self.headline, f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried"]
         for each in self.changes:
-            lines.append(f"{each.title}, {', '.join(each.where)}: {each.kind}, moves the tool by {each.rms_mm:.3g} mm")
+            kind = self.became(each) if self.of_arms else each.kind
+            lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")
             lines += [f"  {_number_line(number)}" for number in each.parameters]
             if each.alternatives:
                 lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")

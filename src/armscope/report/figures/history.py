@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -14,8 +15,8 @@ from armscope.core.numerals import shown_unit
 from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8
-ACROSS, LONGEST = 60, 28
-"""Letters that stand beside each other under the panels, and of one name."""
+ACROSS, LONGEST, LETTERS = 60, 28, 60
+"""Letters that stand beside each other under the panels, of one name, and in a line of a title."""
 COLUMNS = [
     "recording", "effect", "location", "parameter", "unit", "value", "stderr", "since_first", "since_first_stderr",
 ]  # fmt: skip
@@ -40,25 +41,27 @@ def history_figure(found: Comparison) -> Figure:
     figure, panels = plt.subplots(
         len(numbers), 1, figsize=(6.4, 1.6 + 1.4 * len(numbers)), sharex=True, squeeze=False, layout="constrained"
     )
-    at = np.arange(len(found.names))
+    at, first = np.arange(len(found.names)), _shortened(found.names[0])
+    what = "difference" if found.of_arms else "change"
     for (each, number), axes in zip(numbers, panels[:, 0], strict=True):
         factor, unit = shown_unit(number.unit, float(np.max(np.abs(number.since_first))))
         values, errors = factor * np.array(number.since_first), factor * INTERVAL * np.array(number.since_first_stderrs)
         differs = np.isin(found.names, each.where)
         axes.errorbar(at, values, errors, fmt="none", ecolor="0.5", capsize=3)
-        axes.plot(at, values, color="0.8", zorder=0)
+        if not found.of_arms:  # which have no order in time
+            axes.plot(at, values, color="0.8", zorder=0)
         axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
-        axes.set_ylabel(f"change of\n{number.name.replace('_', ' ')}\n({unit})")
+        axes.set_ylabel(f"{what} of\n{number.name.replace('_', ' ')}\n({unit})")
         if number is each.parameters[0]:
-            axes.set_title(f"{each.title}: {each.kind} in {', '.join(each.where)}", loc="left", fontsize="medium")
+            title = textwrap.fill(f"{each.title}: {found.became(each)}", LETTERS)
+            axes.set_title(title, loc="left", fontsize="medium")
         axes.margins(x=0.1, y=0.2)
     crowded = len(found.names) * max(map(len, found.names)) > ACROSS
     look: dict[str, Any] = {"rotation": 30, "ha": "right", "rotation_mode": "anchor"} if crowded else {}
     panels[-1, 0].set_xticks(at, [_shortened(name) for name in found.names], **look)
-    figure.supxlabel(
-        f"recording (change since {found.names[0]}; bars: 95 %; filled: where it differs)", fontsize="small"
-    )
+    first = f"arm (difference from {first}" if found.of_arms else f"recording (change since {first}"
+    figure.supxlabel(f"{first}; bars: 95 %; filled: where it differs)", fontsize="small")
     return figure
 
 

@@ -1,4 +1,4 @@
-"""changes.html: what changed between recordings of one arm, on one page that needs no network."""
+"""changes.html: what changed between recordings of one arm, or which of several is unlike the others, on one page."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
 LEFT_OPEN = "left open by these poses"
 SMALLEST = 1e-6
 """Smaller probabilities are not told apart: no test's assumptions hold so far out."""
+MOST_LISTED = 4
+"""Of more recordings the first and the last are named."""
 RARE = 0.01
 """Below it a probability is told as one in so many."""
 
@@ -46,9 +48,10 @@ class ChangeCard:
     """What a change's card shows."""
 
     title: str
-    kind: str
+    became: str
     where: str
     others: str
+    means: bool
     size: str
     rows: tuple[ChangedNumber, ...]
     remedy: Remedy
@@ -79,6 +82,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         version=importlib.metadata.version("armscope"),
         found=found,
         headline=first,
+        recorded=first_to_last(found.names),
         rest=found.not_comparable if found.changes else "",
         tag=tag,
         answer=answer,
@@ -96,9 +100,11 @@ def write_changes(found: Comparison, folder: Path) -> Path:
 
 def _answer(found: Comparison) -> tuple[str, str]:
     """Colour and words of the answer."""
+    if not found.tried:
+        return "depends", "cannot be told"
     if found.changes:
-        return "fails", "changed"
-    return ("holds", "no change seen") if found.tried else ("depends", "cannot be told")
+        return "fails", "unlike the others" if found.of_arms else "changed"
+    return "holds", "no difference seen" if found.of_arms else "no change seen"
 
 
 def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
@@ -108,8 +114,8 @@ def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
     tiles.append((millimetres(found.noise_mm), "left unexplained", "standard deviation per axis, all recordings"))
     if not found.tried:
         return tiles
-    tried = f"surest of {found.tried} possible changes, all counted"
-    counted = "change" if changes == 1 else "changes"
+    what = "difference" if found.of_arms else "change"
+    tried, counted = f"surest of {found.tried} possible {what}s, all counted", f"{what}{'s' * (changes != 1)}"
     named = (str(changes), counted, f"named where p is below {found.level:g}")
     return [named, (in_odds(found.p_nothing_changed), "is how often chance alone gives this", tried), *tiles]
 
@@ -120,15 +126,22 @@ def recordings_table(found: Comparison) -> pd.DataFrame:
     for number, name in enumerate(found.names):
         family = next((each for each in found.same_poses if name in each), found.names)
         row = {"recording": name, "rows": found.rows[number]}
-        row["compared with"] = enumerated([each for each in family if each != name]) or "none: other poses or payload"
+        others = [each for each in family if each != name]
+        every = len(others) == len(found.names) - 1 > 1
+        row["compared with"] = "all others" if every else first_to_last(others) or "none: other poses or payload"
         if found.left:
             left = found.left[number]
             row["base and tool placed (mm)"] = left.frames_mm
             row["and what all share (mm)"] = left.shared_mm
             if found.changes:
-                row["and the changes (mm)"] = left.changes_mm
+                row[f"and the {'differences' if found.of_arms else 'changes'} (mm)"] = left.changes_mm
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def first_to_last(names: Sequence[str]) -> str:
+    """Recordings by name; of many, the first and the last."""
+    return enumerated(names) if len(names) <= MOST_LISTED else f"{names[0]} … {names[-1]} ({len(names)} recordings)"
 
 
 def in_odds(p: float) -> str:
@@ -153,9 +166,10 @@ def _card(found: Comparison, change: Change) -> ChangeCard:
     others = found.others(change)
     return ChangeCard(
         title=capitalised(change.title_with_doubt),
-        kind=change.kind,
+        became=found.became(change),
         where=enumerated(change.where),
-        others=enumerated(others),
+        others=first_to_last(others),
+        means=len(found.names) > 2,
         size=millimetres(change.rms_mm),
         rows=tuple(_row(found, change, others, number) for number in change.parameters),
         remedy=remedy_of(found, change),
