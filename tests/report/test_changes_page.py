@@ -11,7 +11,7 @@ from armscope.comparison import Change, Comparison, Left, Valued, compare
 from armscope.comparison.shared_model import PRIOR_MM
 from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
-from tests.report.test_hostile_names import EVIL, parsed
+from tests.report.test_hostile_names import EVIL, STEERING, parsed
 
 SINCE = (0.0, 8.7e-4), (0.0, 1e-5)
 NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, *SINCE, 8.7e-4, (8.5e-4, 8.9e-4))
@@ -86,10 +86,12 @@ def test_recordings_of_other_poses_are_not_called_unchanged(tmp_path):
 
 
 def test_hostile_names_are_shown_and_never_obeyed(tmp_path):
-    names = (EVIL, f"{EVIL}2")
+    names = (EVIL, f"{EVIL}{STEERING}")
     change = replace(CHANGE, where=names[1:], alternatives=(EVIL,))
     evil = replace(FOUND, arm=EVIL, names=names, changes=(change,), same_poses=(names,))
-    page = parsed(page_of(evil, tmp_path))
+    html = page_of(evil, tmp_path)
+    page = parsed(html)
+    assert not set("\x1b\x9b\u202e") & set(html)
     assert page.scripts == page.handlers == []
     assert page.text.count(EVIL) > 5
 
@@ -112,6 +114,10 @@ def test_the_same_input_gives_the_same_bytes_and_no_file_of_an_earlier_run_stays
         assert done.stdout.splitlines()[-1] == str(output / "changes.html")
         return {path.name: path.read_bytes() for path in output.iterdir() if path.is_file()}
 
+    words = ["compare", *map(str, files.values()), "-r", robot, "-o", str(tmp_path / "0")]
+    told = CliRunner().invoke(app, [*words, "--json"])
+    assert json.loads(told.stdout) == json.loads((tmp_path / "0" / "comparison.json").read_text()), "and nothing else"
+    assert CliRunner().invoke(app, [*words, "--quiet"]).stdout == ""
     once, again = run(tmp_path / "1", *files.values()), run(tmp_path / "2", *files.values())
     assert once == again
     assert {"changes.html", "comparison.json", "history.csv", "history.png", "history.svg"} == set(once)

@@ -1,7 +1,9 @@
 """The history of a change has a row and a point per recording."""
 
+from dataclasses import replace
+
 from armscope.comparison.result import Change, Comparison, Valued
-from armscope.report.figures.history import history_figure, history_table
+from armscope.report.figures.history import LETTERS, LONGEST, history_figure, history_table
 
 SINCE = (0.0, 3e-4, 3e-4), (0.0, 1e-5, 1e-5)
 NUMBER = Valued("offset", "rad", (2e-3, 2.3e-3, 2.3e-3), (8e-3,) * 3, *SINCE, 3e-4, (2e-4, 4e-4))
@@ -16,3 +18,20 @@ def test_every_recording_has_its_row_and_its_point():
     assert high - low < 1000, "a change known to 20 µrad is not drawn in bars of 16 mrad that all recordings share"
     assert [label.get_text() for label in axes.get_xticklabels()] == ["a", "b", "c"]
     assert "came in b and c" in axes.get_title(loc="left")
+
+
+def test_names_of_files_are_drawn_as_they_can_be_read():
+    names = ("a", "\x1b[31mred", "a very long name of a recording, with its date")
+    change = replace(CHANGE, where=names[1:])
+    (axes,) = history_figure(replace(FOUND, names=names, changes=(change,))).axes
+    drawn = [label.get_text() for label in axes.get_xticklabels()]
+    assert drawn[1] == "\\x1b[31mred"
+    assert len(drawn[2]) == LONGEST
+    assert axes.get_xticklabels()[0].get_rotation() > 0, "they would stand in each other"
+    assert max(map(len, axes.get_title(loc="left").splitlines())) <= LETTERS
+    assert "\x1b" not in axes.get_title(loc="left")
+
+
+def test_arms_have_no_order_so_no_line_joins_them():
+    (of_time,), (of_arms,) = (history_figure(replace(FOUND, of_arms=arms)).axes for arms in (False, True))
+    assert len(of_time.lines) == len(of_arms.lines) + 1

@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.comparison import Comparison
+from armscope.core.inputs import spelt_out
 from armscope.core.numerals import shown_unit
 from armscope.verdict.effects import INTERVAL
 
@@ -54,7 +55,7 @@ def history_figure(found: Comparison) -> Figure:
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
         axes.set_ylabel(f"{what} of\n{number.name.replace('_', ' ')}\n({unit})")
         if number is each.parameters[0]:
-            title = textwrap.fill(f"{each.title}: {found.became(each)}", LETTERS)
+            title = textwrap.fill(spelt_out(f"{each.title}: {found.became(each)}"), LETTERS)
             axes.set_title(title, loc="left", fontsize="medium")
         axes.margins(x=0.1, y=0.2)
     crowded = len(found.names) * max(map(len, found.names)) > ACROSS
@@ -66,4 +67,5 @@ def history_figure(found: Comparison) -> Figure:
 
 
 def _shortened(name: str) -> str:
-    return name if len(name) <= LONGEST else f"{name[: LONGEST // 2]}…{name[-LONGEST // 2 + 1 :]}"
+    told = spelt_out(name)
+    return told if len(told) <= LONGEST else f"{told[: LONGEST // 2]}…{told[-LONGEST // 2 + 1 :]}"
