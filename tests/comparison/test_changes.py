@@ -149,3 +149,19 @@ def test_what_is_left_of_a_recording_is_its_noise_once_the_change_is_taken_in():
     assert left[0].frames_mm == pytest.approx(compare(ARM, tables | {"b": session(63)}).left[0].frames_mm), (
         "what base and tool leave of one recording is its own affair"
     )
+
+
+def test_a_zero_that_moved_as_far_as_would_be_seen_is_named_and_one_of_half_the_size_is_not():
+    """Nine of ten are promised: fewer than 7 of 10 have a probability of 1 %. Half the size lies below chance's own."""
+    named = {1.0: 0, 0.5: 0}
+    for seed in range(10):
+        joint, before = 2 + seed % 4, session(9100 + seed)
+        seen = compare(ARM, {"a": before, "b": session(9600 + seed)}).seen
+        least = next(each.least_rad for each in seen if each.location == f"joint {joint}")
+        for share in named:
+            after = session(9600 + seed, offsets={joint: share * least})
+            named[share] += bool(compare(ARM, {"a": before, "b": after}).changes)
+    assert named[1.0] >= 7
+    assert named[0.5] <= 2
+    hidden = {each.location for each in seen if not np.isfinite(each.least_rad)}
+    assert hidden == {"joint 1", "joint 6"}, "the base turns as joint 1 does, and the tool as the last one"

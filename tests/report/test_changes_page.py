@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.comparison import Change, Comparison, Left, Valued, compare
+from armscope.comparison import Change, Comparison, Left, Seen, Valued, compare
 from armscope.comparison.shared_model import PRIOR_MM
 from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
@@ -170,3 +170,15 @@ def test_of_several_arms_the_page_says_which_is_unlike_the_others(tmp_path):
     for of_time in ("crash", "History", "before", "What changed", "nothing changed"):
         assert of_time not in said.partition("What was assumed")[0].partition("}")[2].rpartition("}")[2]
     assert "No arm is unlike the others" in words_of(replace(arms, changes=(), p_nothing_changed=0.4), tmp_path)
+
+
+def test_where_nothing_changed_the_page_says_what_would_have_been_seen(tmp_path):
+    seen = (Seen("joint 1", float("inf")), Seen("joint 2", 4e-5), Seen("joint 3", 1.2e-3))
+    quiet = replace(FOUND, changes=(), p_nothing_changed=0.4, seen=seen)
+    said = words_of(quiet, tmp_path)
+    assert "moved by 40 µrad (joint 2) to 1.2 mrad (joint 3) or more would be noticed in 90 % of cases" in said
+    assert "Moves of joint 1 would not" in said
+    assert "joint 2 0.0400 0.00229" in said
+    assert quiet.would_be_seen in quiet.text()
+    assert FOUND.would_be_seen == "", "not known, so not said"
+    assert "What would be seen" not in words_of(replace(quiet, seen=()), tmp_path)

@@ -1,6 +1,6 @@
 """What changed between recordings of one arm, or which of several arms is unlike the others."""
 
 from armscope.comparison.changes import compare
-from armscope.comparison.result import Change, Comparison, Left, Valued
+from armscope.comparison.result import Change, Comparison, Left, Seen, Valued
 
-__all__ = ["Change", "Comparison", "Left", "Valued", "compare"]
+__all__ = ["Change", "Comparison", "Left", "Seen", "Valued", "compare"]

@@ -16,11 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from armscope.comparison.result import Change, Comparison, Kind, Left, Valued
+from armscope.comparison.result import POWER, Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import Possible, Scored, SharedModel
 from armscope.core.types import Array
 from armscope.physics.effect import Term
+from armscope.physics.geometric import JOINT_OFFSET
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.effects import INTERVAL
@@ -50,7 +51,8 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     table, group = stacked(arm, recordings)
     model = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
-    possible = model.possible_changes(_masks(families, of_arms))
+    everything = model.possible_changes(_masks(families, of_arms))
+    possible = list(everything)
     taken: list[Possible] = []
     found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
     joint, tried = 1.0, len(possible)
@@ -75,6 +77,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
+        seen=_seen(model, everything),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
     )
@@ -88,6 +91,16 @@ def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tup
             inside = family[first : first + 1] if of_arms else family[first:]
             masks.append((inside, tuple(each for each in family if each not in inside)))
     return masks
+
+
+def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
+    """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
+    least: dict[str, float] = {}
+    for each in possible:
+        if each.placed.effect is JOINT_OFFSET:
+            size = model.smallest_seen(each, LEVEL / len(possible), POWER)
+            least[each.placed.location] = max(size, least.get(each.placed.location, 0.0))
+    return tuple(Seen(location, size) for location, size in least.items())
 
 
 def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) -> tuple[str, ...]:

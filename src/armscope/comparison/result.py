@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from armscope.core.numerals import rounded, shown_unit, size_of
 from armscope.verdict.effects import INTERVAL
-from armscope.verdict.wording import capitalised, enumerated
+from armscope.verdict.wording import capitalised, enumerated, places_in_words
 
 MOST_TOLD = 3
 """More changes than this are counted in the headline, not told."""
+POWER = 0.9
+"""In which share of cases a change is named that "would be seen": convention."""
 MOST_NAMED = 3
 """Recordings with a change, which are told by name; of more, the first."""
 UNLIKE = {
@@ -83,6 +86,20 @@ class Change:
 
 
 @dataclass(frozen=True)
+class Seen:
+    """How far a joint's zero must move to be seen.
+
+    Attributes:
+        location: the joint.
+        least_rad: of moves of this size a change is named, by this name or another, in `POWER` of cases; infinite
+            where these rows show none.
+    """
+
+    location: str
+    least_rad: float
+
+
+@dataclass(frozen=True)
 class Left:
     """What is left of a recording, RMS per axis in mm, on all its rows that could be used.
 
@@ -113,6 +130,7 @@ class Comparison:
         changes: the surest first.
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
         left: what is left of each recording, by what is explained.
+        seen: how far the zero of each joint must move to be seen, where nothing else changed.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
     """
 
@@ -126,6 +144,7 @@ class Comparison:
     changes: tuple[Change, ...]
     same_poses: tuple[tuple[str, ...], ...] = ()
     left: tuple[Left, ...] = ()
+    seen: tuple[Seen, ...] = ()
     of_arms: bool = False
 
     def to_json(self) -> dict[str, Any]:
@@ -150,6 +169,20 @@ class Comparison:
         clauses = [f"{each.title_with_doubt} {self.became(each)}" for each in self.changes[:MOST_TOLD]]
         more = len(self.changes) - len(clauses)
         return capitalised("; ".join([*clauses, *([f"and {more} more"] if more > 0 else [])]))
+
+    @property
+    def would_be_seen(self) -> str:
+        """From which size on a joint's zero that moved would most likely have been named; empty where unknown."""
+        shown = [each for each in self.seen if math.isfinite(each.least_rad)]
+        if not shown:
+            return ""
+        least, most = (pick(shown, key=lambda each: each.least_rad) for pick in (min, max))
+        hidden = [each.location for each in self.seen if each not in shown]
+        sizes = [f"{size_of(each.least_rad, 'rad')} ({each.location})" for each in dict.fromkeys((least, most))]
+        told = f"The zero of a joint that {'differs' if self.of_arms else 'moved'} by {' to '.join(sizes)} or more"
+        told = f"{told} would be noticed in {100 * POWER:.0f} % of cases."
+        hides = f" Moves of {places_in_words(hidden)} would not: base or tool take them up, or the joint stood still."
+        return told + hides * bool(hidden)
 
     @property
     def not_comparable(self) -> str:
@@ -180,7 +213,8 @@ class Comparison:
 
     def text(self) -> str:
         """In words, a line per cause and number."""
-        lines = [self.headline, f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried"]
+        lines = [self.headline, *([] if self.changes else [self.would_be_seen] * bool(self.would_be_seen))]
+        lines.append(f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried")
         for each in self.changes:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")

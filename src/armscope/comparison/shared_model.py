@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from armscope.comparison.dispersion import Statistic, halves, overdispersion
 from armscope.core.types import Array, Indices
@@ -149,6 +150,28 @@ class SharedModel:
         # the noise is as unknown as the change: profile likelihood, and what q numbers cost (Schwarz 1978)
         nats = free / 2 * np.log(total / without) / self.dispersion - q / 2 * np.log(max(free, 2.0))
         return Scored(statistic, statistic.p(self.dispersion), float(nats))
+
+    def smallest_seen(self, possible: Possible, level: float, power: float) -> float:
+        """How large a change of one number must be to be seen beside all that is shared.
+
+        Args:
+            possible: the change.
+            level: the probability below which it is one.
+            power: in which share of cases.
+
+        Returns:
+            The size, SI units; infinite where the rows tell nothing of it.
+        """
+        base, penalty = self._base(())
+        variance, free = self._left(base, penalty)
+        column = possible.columns[:, 0]
+        across = np.linalg.solve(np.linalg.cholesky(base.T @ base + np.diag(penalty)), base.T @ column)
+        square, information = float(column @ column), float(column @ column - across @ across)
+        if square <= variance / possible.plausible[0] ** 2 or information <= UNSEEN * square:
+            return float("inf")
+        # t: F of one number is its square, and noise adds to it or takes away
+        least = stdtrit(free - 1, 1 - level / 2) + stdtrit(free - 1, power)
+        return float(least * np.sqrt(self.dispersion * variance / information))
 
     def variance(self, taken: Sequence[Possible]) -> float:
         """Of what is left, per axis, mm^2."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +13,7 @@ import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
+from armscope.comparison.result import POWER
 from armscope.comparison.shared_model import PRIOR_MM
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
@@ -83,7 +85,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         found=found,
         headline=first,
         recorded=first_to_last(found.names),
-        rest=found.not_comparable if found.changes else "",
+        rest=found.not_comparable if found.changes else found.would_be_seen,
         tag=tag,
         answer=answer,
         tiles=_tiles(found),
@@ -92,6 +94,8 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         left_out=max(0, numbers - MOST_PANELS),
         history=history,
         recordings=recordings_table(found),
+        seen=seen_table(found),
+        power=POWER,
         prior_mm=PRIOR_MM,
         files=FILES[1:] if found.changes else (DATA, TABLE),
     )
@@ -137,6 +141,14 @@ def recordings_table(found: Comparison) -> pd.DataFrame:
                 row[f"and the {'differences' if found.of_arms else 'changes'} (mm)"] = left.changes_mm
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def seen_table(found: Comparison) -> pd.DataFrame:
+    """How far the zero of each joint must move to be seen."""
+    sizes = [(each.location, each.least_rad) for each in found.seen]
+    rows = [(joint, 1e3 * size, math.degrees(size)) for joint, size in sizes if math.isfinite(size)]
+    rows += [(joint, math.nan, math.nan) for joint, size in sizes if not math.isfinite(size)]
+    return pd.DataFrame(rows, columns=["zero of", "mrad", "°"])
 
 
 def first_to_last(names: Sequence[str]) -> str:
