@@ -1,6 +1,7 @@
 """The page of a comparison: what changed, by how much and what to do about it, from whatever names the files hold."""
 
 import json
+import subprocess
 from dataclasses import replace
 
 import pytest
@@ -11,6 +12,7 @@ from armscope.comparison import Change, Comparison, Left, Seen, Valued, compare
 from armscope.comparison.shared_model import PRIOR_MM
 from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
+from tests.report.test_dark_pages import CHROMIUM
 from tests.report.test_hostile_names import EVIL, STEERING, parsed
 
 SINCE = (0.0, 8.7e-4), (0.0, 1e-5)
@@ -182,3 +184,32 @@ def test_where_nothing_changed_the_page_says_what_would_have_been_seen(tmp_path)
     assert quiet.would_be_seen in quiet.text()
     assert FOUND.would_be_seen == "", "not known, so not said"
     assert "What would be seen" not in words_of(replace(quiet, seen=()), tmp_path)
+
+
+@pytest.mark.parametrize(("name", "told"), [("cosine_2", "2 per turn"), ("sine_rx", "about x"), ("cosine", "the wave")])
+def test_parts_of_a_wave_are_told_in_words(tmp_path, name, told):
+    wave = replace(CHANGE, effect="gear_eccentricity", parameters=(replace(NUMBER, name=name),))
+    said = words_of(replace(FOUND, changes=(wave,)), tmp_path)
+    label = said.partition("its 95 % interval")[2].partition(" 0.900 mrad")[0]
+    assert label.strip().startswith(f"{name.partition('_')[0]} part of the wave")
+    assert label.endswith(told)
+
+
+FRAME = """<iframe src="changes.html" style="width:420px;height:900px;border:0"></iframe><script>
+onload = () => { document.title = frames[0].document.documentElement.scrollWidth; };</script>"""
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_the_page_is_no_wider_than_a_telephone(tmp_path):
+    names = tuple(f"2026-{month:02d}-03_after_maintenance_of_the_cell_in_hall_4" for month in range(1, 13))
+    ends = {"values": (9e-4,) * 12, "stderrs": (1e-4,) * 12, "since_first": (0.0,) * 12}
+    number = replace(NUMBER, **ends, since_first_stderrs=(1e-5,) * 12)
+    change = replace(CHANGE, where=names[6:], parameters=(number,), alternatives=("link geometry at link 3",) * 9)
+    left = (Left(1.37, 0.121, 0.031),) * 12
+    page_of(replace(FOUND, names=names, rows=(70,) * 12, changes=(change,), same_poses=(names,), left=left), tmp_path)
+    (tmp_path / "frame.html").write_text(FRAME)
+    look = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--dump-dom"]
+    look += [f"--user-data-dir={tmp_path}/b", (tmp_path / "frame.html").as_uri()]
+    seen = subprocess.run(look, check=True, capture_output=True, text=True, timeout=120).stdout
+    assert int(seen.partition("<title>")[2].partition("<")[0]) <= 420

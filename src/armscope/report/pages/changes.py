@@ -204,4 +204,20 @@ def _row(found: Comparison, change: Change, others: Sequence[str], number: Value
 
     plus = "+" if number.difference > 0 else ""
     also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
-    return ChangedNumber(reading.label, told(before), told(after), f"{plus}{reading.value}", also, reading.interval)
+    return ChangedNumber(
+        _of_a_wave(number.name) or reading.label,
+        told(before),
+        told(after),
+        f"{plus}{reading.value}",
+        also,
+        reading.interval,
+    )
+
+
+def _of_a_wave(name: str) -> str:
+    """What "cosine_2" and "sine_rx" are; empty for other numbers."""
+    part, _, of = name.partition("_")
+    if part not in ("cosine", "sine"):
+        return ""
+    of = {"rx": "about x", "ry": "about y", "rz": "about z"}.get(of, f"{of} per turn" if of else "")
+    return f"{part} part of the wave{', ' * bool(of)}{of}"
