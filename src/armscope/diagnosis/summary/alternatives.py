@@ -101,8 +101,9 @@ def _in_place_of(
 ) -> list[Rival]:
     """What could replace an effect together with the rest of its curve, or alone; ``paid``: the curve's price, nats."""
     candidate, found = search.candidate(number), []
+    explained_anyway = search.in_background(best, number)
     held: tuple[int, ...] = ()
-    if search.in_background(best, number) and not rest:
+    if explained_anyway and not rest:
         held = tuple(int(column) for column in candidate.columns)
         search = search.holding(candidate.columns)
     base = search.without(best, [number, *rest])
@@ -123,7 +124,7 @@ def _in_place_of(
         asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
         if (rest and excluded) or rival.key in taken or not (near or asked):
             continue
-        if (held or own) and other.log_posterior - own < base.log_posterior + PRIORS.sure_nats:
+        if (explained_anyway or own) and other.log_posterior - own < base.log_posterior + PRIORS.sure_nats:
             continue  # it explains nothing of what the effect does
         if rest and rival.variant == "load" and rival.is_curve:
             rival = lines.get(rival.location, rival)
