@@ -120,3 +120,13 @@ def test_a_curve_goes_no_farther_than_it_was_learned(tmp_path_factory: pytest.Te
 
 def _count(part: Part) -> tuple[float]:
     return (part.placed.terms[3].products[0].driver.arguments[1],)  # type: ignore[return-value]
+
+
+def test_small_give_of_a_base_stays_with_that_base(learned: tuple[Arm, FittedModel], other: Recordings) -> None:
+    arm, model = learned
+    tilts = next(p for p in library(arm, other) if p.name == "base_compliance" and not p.variant)
+    gives = Part(tilts, np.array([2e-7]))
+    on_its_base = replace(model, background=(*model.background, gives))
+    assert transfer(on_its_base, other).left_mm == pytest.approx(transfer(model, other).left_mm, rel=1e-9)
+    named = replace(model, parts=(*model.parts, gives))
+    assert transfer(named, other).left_mm > 2 * transfer(model, other).left_mm

@@ -62,7 +62,8 @@ def transfer(
             "elastic background"; None applies all that belong to the arm: not drifts, shifts and what follows time or
             temperature, which belong to their run. Of none, only the frames stay.
         refitted: frames placed anew on these rows (base per run, tool per target); others stay as the model has them,
-            and a run that it does not know stands on its last base.
+            and a run that it does not know stands on its last base. On a base placed anew, the small give that was
+            allowed for in the last one is left out.
 
     Returns:
         The model on the other rows, and what it leaves of them.
@@ -72,6 +73,8 @@ def transfer(
     """
     frames = tuple(frame for frame in ("base", "tool") if frame in set(refitted))
     parts, background = _applied(model, effects)
+    if "base" in frames:  # on another base the pedestal's small give is another; a named one is taken for the arm's
+        background = tuple(part for part in background if part.placed.location != "base")
     if "tool" not in frames:
         _check_targets(model, recordings)
     own = _placed_anew(replace(model, parts=parts, background=background), recordings, frames)
