@@ -19,7 +19,7 @@ from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps
 from armscope.physics.soft_start import soft_starts
 from armscope.physics.thermal import all_links_growing
-from armscope.physics.uneven_bearing import uneven_base, uneven_bearings
+from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.physics.wander import link_wander, wander
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -57,7 +57,9 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
-    base = [placed for placed in elastic.BASE_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
+    pedestal = [
+        placed for placed in elastic.BASE_COMPLIANCE.place(arm, recordings) if placed.variant == elastic.TWO_AXES
+    ]
     constant = [
         replace(placed, prior_scale=(FORM.tolerance,) * len(placed.terms)) for placed in geometric.background(arm)
     ]
@@ -69,7 +71,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
         SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
         ORIENTATION: orientation_errors(recordings),
         THERMAL: all_links_growing(arm, recordings),
-        STRUCTURE: _loaded([*base, *uneven_base(arm, recordings), *elastic.LINK_BENDING.place(arm, recordings)]),
+        STRUCTURE: _loaded([*pedestal, *elastic.LINK_BENDING.place(arm, recordings)]),
         UNEVEN: _loaded(uneven_bearings(arm, recordings)),
     }
 
