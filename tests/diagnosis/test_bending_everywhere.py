@@ -5,14 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
+from armscope import compensate
+from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.backgrounds import ELASTIC
 from armscope.physics.effect import Part
 from armscope.physics.elastic import BASE_COMPLIANCE, BEARING_COMPLIANCE, LINK_BENDING
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.uneven_bearing import uneven_bearings
+from armscope.recordings import Recordings
+from armscope.robot import forward_kinematics
 
 from ..physics.scenes import arm_named
 from .planted import Wanted, one_run, recorded
@@ -41,9 +46,8 @@ def test_what_bends_everywhere_gets_no_name(arm_name: str) -> None:
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) -> None:
-    """All of them, each about an axis of its own; before, D-H lengths and gears had names for it."""
+def with_uneven_bearings(seed: int) -> FittedModel:
+    """An arm all of whose bearings are softer about one axis, each about its own, by up to three times."""
     arm, rng = arm_named("six-axis"), np.random.default_rng(seed)
     table = one_run(arm, ROWS, seed)
     parts = []
@@ -53,11 +57,40 @@ def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) 
             half, turn = 0.35 * soft, 2 * rng.uniform(0, np.pi)
             parts.append(Part(even, np.array([soft - half])))
             parts.append(Part(uneven, half * np.array([np.cos(turn), np.sin(turn)])))
-    points = predict(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}, (), tuple(parts)), table)
-    measured = replace(table, positions=points + 1e-3 * NOISE_MM * rng.normal(size=points.shape))
-    verdict = diagnose(arm, measured, QUICK)
+    return FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}, (), tuple(parts))
+
+
+def measured(truth: FittedModel, seed: int) -> Recordings:
+    table, noise = one_run(truth.arm, ROWS, seed), np.random.default_rng(seed + 100).normal(size=(ROWS, 3))
+    return replace(table, positions=predict(truth, table) + 1e-3 * NOISE_MM * noise)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) -> None:
+    """Before they were allowed for, the base, D-H lengths and gears had names for them."""
+    truth = with_uneven_bearings(seed)
+    verdict = diagnose(truth.arm, measured(truth, seed), QUICK)
     assert {effect.family for effect in verdict.effects} <= {ELASTIC}
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
+
+
+def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should_go() -> None:
+    """The family's cure, as worded: commands computed from the model, at other poses, on the true arm."""
+    truth = with_uneven_bearings(seed=1)
+    table = measured(truth, seed=1)
+    poses = one_run(truth.arm, 40, seed=91)
+    path = pd.DataFrame(poses.motor_angles, columns=[f"q{j}_rad" for j in range(1, 7)])
+    path = path.assign(payload_kg=poses.payload, temperature_c=poses.temperature)
+    wanted = forward_kinematics(truth.arm, poses.motor_angles)
+    found = compensate(diagnose(truth.arm, table, QUICK).model, path, table)
+    reached = np.isfinite(found.commands).all(axis=1)
+
+    def missed_mm(angles: Array) -> float:
+        errors = predict(truth, replace(poses, motor_angles=np.where(reached[:, None], angles, 0.0))) - wanted
+        return float(1e3 * np.sqrt(np.mean(errors[reached] ** 2)))
+
+    assert reached.mean() > 0.9
+    assert missed_mm(found.commands) < 0.1 * missed_mm(poses.motor_angles)
 
 
 @pytest.mark.parametrize("softer", [("link_bending", "link 2"), ("base_compliance", "base")])

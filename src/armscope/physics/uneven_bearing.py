@@ -14,7 +14,7 @@ from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-UNEVEN = "uneven"
+UNEVEN_BEARING = "uneven"
 """The variant of a bearing's compliance that says by how much it is not the same about x and y."""
 
 
@@ -42,4 +42,4 @@ def uneven_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             term("difference", "rad/(N m)", *apart, plausible=size),
             term("across", "rad/(N m)", (about_x, under_y), (about_y, under_x), plausible=size),
         )
-        yield Placed(BEARING_COMPLIANCE, place, terms, (1.0, 1.0), f"moment across {place}", variant=UNEVEN)
+        yield Placed(BEARING_COMPLIANCE, place, terms, (1.0, 1.0), f"moment across {place}", variant=UNEVEN_BEARING)
