@@ -132,6 +132,36 @@ def test_of_several_arms_the_one_that_is_unlike_the_others():
     assert "that all are alike" in found.headline
 
 
+@pytest.mark.parametrize("seed", [300, 400])
+@pytest.mark.parametrize(
+    ("zeros", "changes"),
+    [
+        ((0, 5e-4, 0, 0), {(("2",), ("1", "3", "4")): 5e-4}),
+        ((0, 5e-4, 5e-4, 12e-4), {(("2", "3"), ("1",)): 5e-4, (("4",), ("2", "3")): 7e-4}),
+    ],
+)
+def test_of_a_series_a_zero_that_changed_twice_did_so_by_what_was_planted(zeros, changes, seed):
+    """It slipped and was set again, or slipped twice: each change has an interval of its own, that holds it."""
+    found = compare(ARM, {f"{k + 1}": session(seed + k, offsets={4: zero}) for k, zero in enumerate(zeros)})
+    steps = {(each.where, each.against): each.parameters[0] for each in found.changes if each.location == "joint 4"}
+    assert steps.keys() == changes.keys()
+    for step, size in changes.items():
+        low, high = steps[step].interval_95
+        assert low < size < high
+        assert high - low < 2e-4
+
+
+def test_two_arms_that_are_unlike_the_others_are_held_against_the_rest():
+    planted = {"B": 5e-4, "D": -4e-4}
+    arms = {name: session(600 + n, offsets={2: planted.get(name, 0.0)}) for n, name in enumerate("ABCDE")}
+    found = [each for each in compare(ARM, arms, of_arms=True).changes if each.location == "joint 2"]
+    assert {each.where: each.against for each in found} == {("B",): ("A", "C", "E"), ("D",): ("A", "C", "E")}
+    for each in found:
+        low, high = each.parameters[0].interval_95
+        assert low < planted[each.where[0]] < high
+        assert high - low < 2e-4
+
+
 def test_another_base_and_tool_are_no_change_and_one_recording_is_none():
     with pytest.raises(InputError, match="two or more"):
         compare(ARM, {"a": session(1)})

@@ -9,7 +9,9 @@ from armscope.comparison.remedies import difference_of, remedy_of
 from armscope.physics.registry import effects
 
 NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, (0.0, 8.7e-4), (0.0, 1e-5), 8.7e-4, (8.5e-4, 8.9e-4))
-CHANGE = Change("joint_offset", "joint 3", "joint offset at joint 3", ("c",), "grew", 0.3, 1e-9, (NUMBER,), ())
+CHANGE = Change(
+    "joint_offset", "joint 3", "joint offset at joint 3", ("c",), ("a", "b"), "grew", 0.3, 1e-9, (NUMBER,), ()
+)
 NAMES = ("a", "b", "c")
 FOUND = Comparison("arm", NAMES, (70,) * 3, 0.03, 1e-9, 0.05, 100, (CHANGE,), same_poses=(NAMES,))
 
@@ -24,6 +26,21 @@ def test_the_zero_is_set_by_the_change_and_not_by_all_that_is_off():
 def test_a_repair_that_worked_is_not_told_as_a_crash():
     assert "the repair worked" in remedy_of(FOUND, replace(CHANGE, kind="went")).why
     assert "repair worked" not in remedy_of(FOUND, CHANGE).why
+
+
+def test_what_was_put_right_since_is_not_mended_again():
+    told = remedy_of(FOUND, once := replace(CHANGE, where=("b",), against=("a", "c")))
+    assert "between a and b, and what put it right before c" in told.why
+    assert told.instruction == "Nothing is left to be done: in c it is as before."
+    assert (told.confirm, told.rule) == ("", "")
+    assert found_text(once).startswith("Joint offset at joint 3 grew in b alone (p = 1e-09")
+    assert " alone" not in found_text(CHANGE)
+    between = replace(CHANGE, where=("b",), against=("a",))  # it changed once more in c, which has a card of its own
+    assert remedy_of(FOUND, between).instruction.startswith("Reset the zero")
+
+
+def found_text(change):
+    return replace(FOUND, changes=(change,)).text()
 
 
 @pytest.mark.parametrize("effect", effects(), ids=lambda each: each.name)

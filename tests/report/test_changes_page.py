@@ -17,7 +17,9 @@ from tests.report.test_hostile_names import EVIL, STEERING, parsed
 
 SINCE = (0.0, 8.7e-4), (0.0, 1e-5)
 NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, *SINCE, 8.7e-4, (8.5e-4, 8.9e-4))
-CHANGE = Change("joint_offset", "joint 3", "joint offset at joint 3", ("after",), "grew", 0.296, 1e-9, (NUMBER,), ())
+CHANGE = Change(
+    "joint_offset", "joint 3", "joint offset at joint 3", ("after",), ("before",), "grew", 0.296, 1e-9, (NUMBER,), ()
+)
 FOUND = Comparison(
     "arm", ("before", "after"), (70, 71), 0.03, 1e-9, 0.05, 100, (CHANGE,), (("before", "after"),),
     (Left(1.37, 0.121, 0.031), Left(1.41, 0.133, 0.032)),
@@ -89,7 +91,7 @@ def test_recordings_of_other_poses_are_not_called_unchanged(tmp_path):
 
 def test_hostile_names_are_shown_and_never_obeyed(tmp_path):
     names = (EVIL, f"{EVIL}{STEERING}")
-    change = replace(CHANGE, where=names[1:], alternatives=(EVIL,))
+    change = replace(CHANGE, where=names[1:], against=names[:1], alternatives=(EVIL,))
     evil = replace(FOUND, arm=EVIL, names=names, changes=(change,), same_poses=(names,))
     html = page_of(evil, tmp_path)
     page = parsed(html)
@@ -152,7 +154,7 @@ def test_of_many_recordings_the_first_and_the_last_are_named():
     assert first_to_last("abcd") == "a, b, c and d"
     assert first_to_last("abcdefg") == "a … g (7 recordings)"
     names = tuple("abcdefg")
-    later = replace(CHANGE, where=names[2:])
+    later = replace(CHANGE, where=names[2:], against=names[:2])
     long = replace(FOUND, names=names, changes=(later,), rows=(70,) * 7, same_poses=(names,), left=())
     assert long.told.endswith("grew in c and the 4 after it")
     assert recordings_table(long)["compared with"].tolist() == ["all others"] * 7
@@ -161,7 +163,8 @@ def test_of_many_recordings_the_first_and_the_last_are_named():
 def test_of_several_arms_the_page_says_which_is_unlike_the_others(tmp_path):
     names, since = ("A", "B", "C"), (0.0, 8.7e-4, 0.0)
     number = replace(NUMBER, values=(9e-4, 1.77e-3, 9e-4), stderrs=(1e-4,) * 3, since_first=since)
-    change = replace(CHANGE, where=("B",), parameters=(replace(number, since_first_stderrs=(0.0, 1e-5, 1e-5)),))
+    number = replace(number, since_first_stderrs=(0.0, 1e-5, 1e-5))
+    change = replace(CHANGE, where=("B",), against=("A", "C"), parameters=(number,))
     arms = replace(FOUND, names=names, rows=(70,) * 3, changes=(change,), same_poses=(names,), left=(), of_arms=True)
     said = words_of(arms, tmp_path)
     assert "Joint offset at joint 3 is larger in B than in the others." in said
@@ -205,7 +208,9 @@ def test_the_page_is_no_wider_than_a_telephone(tmp_path):
     names = tuple(f"2026-{month:02d}-03_after_maintenance_of_the_cell_in_hall_4" for month in range(1, 13))
     ends = {"values": (9e-4,) * 12, "stderrs": (1e-4,) * 12, "since_first": (0.0,) * 12}
     number = replace(NUMBER, **ends, since_first_stderrs=(1e-5,) * 12)
-    change = replace(CHANGE, where=names[6:], parameters=(number,), alternatives=("link geometry at link 3",) * 9)
+    change = replace(
+        CHANGE, where=names[6:], against=names[:6], parameters=(number,), alternatives=("link geometry at link 3",) * 9
+    )
     left = (Left(1.37, 0.121, 0.031),) * 12
     page_of(replace(FOUND, names=names, rows=(70,) * 12, changes=(change,), same_poses=(names,), left=left), tmp_path)
     (tmp_path / "frame.html").write_text(FRAME)

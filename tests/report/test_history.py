@@ -7,7 +7,9 @@ from armscope.report.figures.history import LETTERS, LONGEST, history_figure, hi
 
 SINCE = (0.0, 3e-4, 3e-4), (0.0, 1e-5, 1e-5)
 NUMBER = Valued("offset", "rad", (2e-3, 2.3e-3, 2.3e-3), (8e-3,) * 3, *SINCE, 3e-4, (2e-4, 4e-4))
-CHANGE = Change("joint_offset", "joint 3", "joint offset at joint 3", ("b", "c"), "came", 0.2, 1e-9, (NUMBER,), ())
+CHANGE = Change(
+    "joint_offset", "joint 3", "joint offset at joint 3", ("b", "c"), ("a",), "came", 0.2, 1e-9, (NUMBER,), ()
+)
 FOUND = Comparison("arm", ("a", "b", "c"), (9, 9, 9), 0.03, 1e-9, 0.05, 100, (CHANGE,))
 
 
@@ -22,7 +24,7 @@ def test_every_recording_has_its_row_and_its_point():
 
 def test_names_of_files_are_drawn_as_they_can_be_read():
     names = ("a", "\x1b[31mred", "a very long name of a recording, with its date")
-    change = replace(CHANGE, where=names[1:])
+    change = replace(CHANGE, where=names[1:], against=names[:1])
     (axes,) = history_figure(replace(FOUND, names=names, changes=(change,))).axes
     drawn = [label.get_text() for label in axes.get_xticklabels()]
     assert drawn[1] == "\\x1b[31mred"

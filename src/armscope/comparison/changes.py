@@ -40,7 +40,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     Args:
         arm: the nominal arm.
         recordings: two or more by name, in the order of time.
-        of_arms: several arms: a change is in one recording alone; else it holds from a recording on.
+        of_arms: several arms: a change is in one recording alone; else it may hold from a recording on.
 
     Returns:
         The joint test, and every change with its interval.
@@ -52,6 +52,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     model = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
     everything = model.possible_changes(_masks(families, of_arms))
+    seen = _seen(model, everything)  # of one change alone, so before recordings are weighed without those found
     possible = list(everything)
     taken: list[Possible] = []
     found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
@@ -66,6 +67,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         best = max(sure, key=lambda each: scores[each].nats)
         found.append((possible[best], scores[best], _as_good(possible, scores, best)))
         taken.append(possible.pop(best))
+        model.weigh_recordings(taken)
     names = tuple(recordings)
     return Comparison(
         arm=arm.name,
@@ -77,19 +79,23 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
-        seen=_seen(model, everything),
+        seen=seen,
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
     )
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """Recordings that may have something otherwise, and those of the same poses that they are held against."""
+    """Recordings that may have something otherwise, and those of the same poses that they are held against.
+
+    In time: from one of them on, or in one alone, as where a crash was repaired before the next one. As two steps it
+    would not be found: neither of them alone explains much, and the odd recording would count as a noisy one.
+    """
     masks = []
     for family in families:
-        for first in range(0 if of_arms and len(family) > 2 else 1, len(family)):
-            inside = family[first : first + 1] if of_arms else family[first:]
-            masks.append((inside, tuple(each for each in family if each not in inside)))
+        later = [] if of_arms and len(family) > 2 else [family[first:] for first in range(1, len(family))]
+        alone = [(each,) for each in (family if of_arms else family[1:-1])] if len(family) > 2 else []
+        masks += [(inside, tuple(each for each in family if each not in inside)) for inside in (*later, *alone)]
     return masks
 
 
@@ -119,10 +125,13 @@ def _change(
     names: Sequence[str],
 ) -> Change:
     """A change in words and file units: the effect with a value of its own in every recording."""
-    beside = [other for other in taken if other is not found]
+    alike = [other for other in taken if other.placed is found.placed and other is not found]
+    # values of its own in every recording hold all changes of the effect: those beside them would be the same columns
+    beside = [other for other in taken if other.placed is not found.placed]
     values, covariance, free = model.own_values(found.placed, beside, len(names))
     q = len(found.placed.terms)
-    inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (found.sets, found.against))
+    there, against = _but_for_it_alike(found, alike)
+    inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))
     contrast = inside / inside.sum() - outside / outside.sum()
     parameters = []
     for place, term in enumerate(found.placed.terms):
@@ -132,9 +141,23 @@ def _change(
         half = float(stdtrit(free, 0.975)) * error
         parameters.append(_valued(term, values[at], covariance[np.ix_(at, at)], (difference, half)))
     rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
-    title, where = plain(str(found.placed)), tuple(names[k] for k in found.sets)
+    title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
     kind = _kind(parameters, inside, outside)
-    return Change(found.placed.name, found.placed.location, title, where, kind, rms, p, tuple(parameters), others)
+    return Change(found.placed.name, found.placed.location, title, where, held, kind, rms, p, tuple(parameters), others)
+
+
+def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Recordings with and without a change that have the other changes of its effect in common.
+
+    A zero that slipped and was set again changed twice; over all recordings the second change would hide in the first.
+    """
+
+    def state(number: int) -> tuple[bool, ...]:
+        return tuple(number in other.sets for other in others)
+
+    common = {state(number) for number in found.sets} & {state(number) for number in found.against}
+    of_all, of_rest = (tuple(k for k in sets if state(k) in common) for sets in (found.sets, found.against))
+    return (of_all, of_rest) if common else (found.sets, found.against)
 
 
 def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, float]) -> Valued:

@@ -44,6 +44,10 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     known = effect_named(change.effect)
     if known is None:
         return Remedy("", _why(found, change), "", "", "")
+    if back := found.back_in(change):
+        return Remedy(
+            known.physics, _why(found, change), "", f"Nothing is left to be done: in {back} it is as before.", ""
+        )
     differences = [difference_of(number) for number in change.parameters]
     verb = "it differs" if found.of_arms else "it moved"
     instruction = known.cure.instruction.format_map(_words(known, change.location, differences, verb))
@@ -59,12 +63,14 @@ def difference_of(number: Valued) -> Parameter:
 
 def _why(found: Comparison, change: Change) -> str:
     """Where to look first."""
-    others = found.others(change)
     if found.of_arms:
         return f"Look at what is done to each arm alone: how {change.where[0]} was assembled, mastered and mounted."
-    between = f"between {others[-1]} and {change.where[0]}" if others else f"before {change.where[0]}"
+    earlier = [name for name in found.names[: found.names.index(change.where[0])] if name in change.against]
+    between = f"between {earlier[-1]} and {change.where[0]}" if earlier else f"before {change.where[0]}"
     if change.kind in ("went", "shrank"):
         return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
+    if back := found.back_in(change):
+        between = f"{between}, and what put it right before {back}"
     return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."
 
 

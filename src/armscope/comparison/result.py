@@ -59,7 +59,8 @@ class Change:
 
     Attributes:
         effect, location, title: what and where.
-        where: the recordings that have it otherwise than the rest.
+        where: the recordings that have it otherwise.
+        against: than these; an effect that changed twice did so from before to between, and from between to after.
         kind: what became of it.
         rms_mm: what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb.
         p: by chance, as often as this or more extreme, for any of all causes that were tried.
@@ -71,6 +72,7 @@ class Change:
     location: str
     title: str
     where: tuple[str, ...]
+    against: tuple[str, ...]
     kind: Kind
     rms_mm: float
     p: float
@@ -201,15 +203,14 @@ class Comparison:
         later = len(change.where) - 1
         where = enumerated(change.where) if later < MOST_NAMED else f"{change.where[0]} and the {later} after it"
         if not self.of_arms:
-            return f"{change.kind}{_by(change)} in {where}"
-        others = self.others(change)
-        told = others[0] if len(others) == 1 else "the others"
+            return f"{change.kind}{_by(change)} in {where}{' alone' * bool(self.back_in(change))}"
+        told = change.against[0] if len(change.against) == 1 else "the others"
         return UNLIKE[change.kind].format(where=where, others=told, by=_by(change))
 
-    def others(self, change: Change) -> tuple[str, ...]:
-        """The recordings of the same poses that a change is held against."""
-        family = next((each for each in self.same_poses if change.where[0] in each), self.names)
-        return tuple(name for name in family if name not in change.where)
+    def back_in(self, change: Change) -> str:
+        """The recording in which a change was taken back; empty where it was not, and of arms."""
+        later = self.names[self.names.index(change.where[-1]) + 1 :]
+        return "" if self.of_arms else next((name for name in later if name in change.against), "")
 
     def text(self) -> str:
         """In words, a line per cause and number."""

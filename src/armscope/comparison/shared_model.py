@@ -38,14 +38,14 @@ HELD = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Possible:
-    """A change that may be: an effect, its parameters' usual sizes (q,), its columns (3N, q), mm per unit, and where.
+    """A change that may be: an effect, its parameters' usual sizes (q,), in which of the numbers (3N,), and where.
 
     In the rows of some recordings, ``sets``, held ``against`` others.
     """
 
     placed: Placed
     plausible: Array
-    columns: Array
+    there: NDArray[np.bool_]
     sets: tuple[int, ...]
     against: tuple[int, ...]
 
@@ -79,23 +79,31 @@ class SharedModel:
         self.plausible = np.array([term.plausible for each in self.placed for term in each.terms])
         self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
         self.dispersion = 1.0
+        self._robust = self.weight = weight
         self._noise = self._settled_noise()
-        self._weigh_recordings(weight)
+        self.weigh_recordings(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
 
-    def _weigh_recordings(self, weight: Array) -> None:
-        """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves."""
-        self.weight = weight
+    def weigh_recordings(self, taken: Sequence[Possible]) -> None:
+        """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
+
+        Args:
+            taken: changes, without which a recording that has one would count as a noisy one.
+        """
+        self._weigh(self._robust / self.weight)
         for _ in range(WEIGHINGS):
-            base, penalty = self._base(())
+            base, penalty = self._base(taken)
             hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
             square = (self.residual - base @ (hat @ self.residual)) ** 2
             free = np.maximum(np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat)), 1.0)
             noise = np.sqrt(np.bincount(self.group, square) / free + 1e-24)
-            relative = (np.sqrt(np.sum(square) / np.sum(free)) / noise)[self.group]
-            self.weight, self.residual = self.weight * relative, self.residual * relative
-            self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
-            self._noise = self._settled_noise()
+            self._weigh((np.sqrt(np.sum(square) / np.sum(free)) / noise)[self.group])
+
+    def _weigh(self, relative: Array) -> None:
+        """Give the numbers other weights, as multiples (3N,) of those that they have."""
+        self.weight, self.residual = self.weight * relative, self.residual * relative
+        self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
+        self._noise = self._settled_noise()
 
     def _between_halves(self, angles: Array) -> Iterator[Statistic]:
         """What differs between halves of each recording, for every effect, with frames and effects of its own."""
@@ -105,9 +113,9 @@ class SharedModel:
             alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
             alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
             alone._noise = alone._settled_noise()
-            parts = [np.repeat(half, 3)[:, None] for half in halves(angles[rows[::3]])]
+            parts = [np.repeat(half, 3) for half in halves(angles[rows[::3]])]
             changes = [
-                Possible(each, self._of(self.plausible, at), alone.columns_of(at, (number,)) * part, (), ())
+                Possible(each, self._of(self.plausible, at), part, (), ())
                 for at, each in enumerate(self.placed)
                 for part in parts
             ]
@@ -116,11 +124,15 @@ class SharedModel:
     def possible_changes(self, masks: Sequence[tuple[tuple[int, ...], tuple[int, ...]]]) -> list[Possible]:
         """Every effect of the library in every one of some groups of recordings."""
         return [
-            Possible(each, self._of(self.plausible, number), self.columns_of(number, inside), inside, against)
+            Possible(each, self._of(self.plausible, number), np.isin(self.group, inside), inside, against)
             for number, each in enumerate(self.placed)
             for inside, against in masks
             if np.abs(self.columns_of(number, inside)).max() > 0
         ]
+
+    def columns(self, possible: Possible) -> Array:
+        """(3N, q) a change's columns, mm per unit, as its rows are weighed now."""
+        return self.effects[:, self._at(self.placed.index(possible.placed))] * possible.there[:, None]
 
     def scores(self, possible: Sequence[Possible], taken: Sequence[Possible]) -> list[Scored]:
         """How much better each change makes the fit, beside those that were taken."""
@@ -132,10 +144,11 @@ class SharedModel:
         return [self._score(each, half, left, variance, free) for each in possible]
 
     def _score(self, possible: Possible, half: Array, left: Array, variance: float, free: float) -> Scored:
-        size = np.sqrt(np.sum(possible.columns**2, axis=0))
+        every = self.columns(possible)
+        size = np.sqrt(np.sum(every**2, axis=0))
         # a change of the size that arms show must move the rows by more than their noise
         told = size > np.sqrt(variance) / possible.plausible
-        columns = possible.columns[:, told] / size[told]
+        columns = every[:, told] / size[told]
         across = half @ columns
         values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
         seen = values > UNSEEN
@@ -164,7 +177,7 @@ class SharedModel:
         """
         base, penalty = self._base(())
         variance, free = self._left(base, penalty)
-        column = possible.columns[:, 0]
+        column = self.columns(possible)[:, 0]
         across = np.linalg.solve(np.linalg.cholesky(base.T @ base + np.diag(penalty)), base.T @ column)
         square, information = float(column @ column), float(column @ column - across @ across)
         if square <= variance / possible.plausible[0] ** 2 or information <= UNSEEN * square:
@@ -217,27 +230,30 @@ class SharedModel:
 
     def moved_mm(self, possible: Possible, change: Array) -> float:
         """What a change by (q,) SI units moves the tool beyond what frames absorb: RMS of the distance, mm."""
-        moved = possible.columns @ change
+        moved = self.columns(possible) @ change
         moved = moved - self.frames @ np.linalg.lstsq(self.frames, moved, rcond=None)[0]
         there = np.isin(self.group, possible.sets)
         return float(np.sqrt(np.sum((moved / self.weight)[there] ** 2) / (there.sum() / 3)))
 
     def _of(self, numbers: Array, number: int) -> Array:
         """An effect's part of numbers that stand one per term."""
-        return numbers[self._start[number] : self._start[number + 1]]
+        return numbers[self._at(number)]
+
+    def _at(self, number: int) -> slice:
+        """Where the terms of an effect stand among those of all."""
+        return slice(self._start[number], self._start[number + 1])
 
     def columns_of(self, number: int, sets: tuple[int, ...]) -> Array:
         """(3N, q) an effect's columns in the rows of some recordings."""
-        columns = self.effects[:, self._start[number] : self._start[number + 1]]
-        return columns * np.isin(self.group, sets)[:, None]
+        return self.effects[:, self._at(number)] * np.isin(self.group, sets)[:, None]
 
     def _base(self, taken: Sequence[Possible], without: int | None = None) -> tuple[Array, Array]:
         """Columns that all changes stand beside, and the penalty on each."""
         kept: NDArray[np.bool_] = self.scale > 0
         if without is not None:
             kept = kept.copy()
-            kept[self._start[without] : self._start[without + 1]] = False
-        free = np.hstack([self.frames, *(each.columns for each in taken)])
+            kept[self._at(without)] = False
+        free = np.hstack([self.frames, *(self.columns(each) for each in taken)])
         free = free / np.maximum(_length(free), 1e-30)
         shared = self.effects[:, kept] * self.scale[kept]
         small = np.full(free.shape[1], HELD)  # a wrist that was held leaves part of its tool to the base

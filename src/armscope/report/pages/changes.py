@@ -175,25 +175,24 @@ def _alike(titles: Sequence[str]) -> list[str]:
 
 
 def _card(found: Comparison, change: Change) -> ChangeCard:
-    others = found.others(change)
     return ChangeCard(
         title=capitalised(change.title_with_doubt),
         became=found.became(change),
         where=enumerated(change.where),
-        others=first_to_last(others),
+        others=first_to_last(change.against),
         means=len(found.names) > 2,
         size=millimetres(change.rms_mm),
-        rows=tuple(_row(found, change, others, number) for number in change.parameters),
+        rows=tuple(_row(found, change, number) for number in change.parameters),
         remedy=remedy_of(found, change),
         alternatives=tuple(_alike(change.alternatives)),
     )
 
 
-def _row(found: Comparison, change: Change, others: Sequence[str], number: Valued) -> ChangedNumber:
+def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
     """A number before and after: the mean over the recordings without and with the change."""
     difference = difference_of(number)
     reading = read_parameter(difference, change.effect)
-    before = float(np.mean(np.array(number.values)[np.isin(found.names, others)]))
+    before = float(np.mean(np.array(number.values)[np.isin(found.names, change.against)]))
     after = before + number.difference
     factor, unit = shown_unit(number.unit, max(abs(before), abs(after), abs(number.difference)))
     digits = decimals_for(factor * difference.stderr)
