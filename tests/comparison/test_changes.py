@@ -151,6 +151,15 @@ def test_of_a_series_a_zero_that_changed_twice_did_so_by_what_was_planted(zeros,
         assert high - low < 2e-4
 
 
+@pytest.mark.parametrize("zeros", [(0, 6e-4, 1e-3), (0, 5e-4, 0, 0), (0, 5e-4, 5e-4, 12e-4)])
+def test_what_is_to_be_mended_adds_up_to_what_is_off_in_the_last_recording(zeros):
+    """Whichever way the changes of a zero are told: two steps, or one of the last and one that is over."""
+    found = compare(ARM, {f"{k}": session(800 + k, offsets={4: zero}) for k, zero in enumerate(zeros)})
+    to_be_mended = [each for each in found.changes if each.location == "joint 4" and not found.over_in(each)]
+    total = sum(each.parameters[0].difference for each in to_be_mended)
+    assert total == pytest.approx(zeros[-1] - zeros[0], abs=1e-4)
+
+
 def test_two_arms_that_are_unlike_the_others_are_held_against_the_rest():
     planted = {"B": 5e-4, "D": -4e-4}
     arms = {name: session(600 + n, offsets={2: planted.get(name, 0.0)}) for n, name in enumerate("ABCDE")}

@@ -28,15 +28,15 @@ def test_a_repair_that_worked_is_not_told_as_a_crash():
     assert "repair worked" not in remedy_of(FOUND, CHANGE).why
 
 
-def test_what_was_put_right_since_is_not_mended_again():
-    told = remedy_of(FOUND, once := replace(CHANGE, where=("b",), against=("a", "c")))
-    assert "between a and b, and what put it right before c" in told.why
-    assert told.instruction == "Nothing is left to be done: in c it is as before."
+def test_what_is_over_is_not_mended_again():
+    told = remedy_of(FOUND, once := replace(CHANGE, where=("b",), against=("a", "c"), until="c"))
+    assert "between a and b, and again before c" in told.why
+    assert told.instruction == "Nothing is left to be done about what b alone had."
     assert (told.confirm, told.rule) == ("", "")
     assert found_text(once).startswith("Joint offset at joint 3 grew in b alone (p = 1e-09")
     assert " alone" not in found_text(CHANGE)
-    between = replace(CHANGE, where=("b",), against=("a",))  # it changed once more in c, which has a card of its own
-    assert remedy_of(FOUND, between).instruction.startswith("Reset the zero")
+    first = replace(CHANGE, where=("b",), against=("a",))  # it lasts, and changed once more in c
+    assert remedy_of(FOUND, first).instruction.startswith("Reset the zero")
 
 
 def found_text(change):

@@ -143,7 +143,9 @@ def _change(
     rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
     kind = _kind(parameters, inside, outside)
-    return Change(found.placed.name, found.placed.location, title, where, held, kind, rms, p, tuple(parameters), others)
+    until = next((names[k] for k in found.against if k > max(found.sets)), "")
+    numbers = tuple(parameters)
+    return Change(found.placed.name, found.placed.location, title, where, held, kind, rms, p, numbers, others, until)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:

@@ -44,10 +44,9 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     known = effect_named(change.effect)
     if known is None:
         return Remedy("", _why(found, change), "", "", "")
-    if back := found.back_in(change):
-        return Remedy(
-            known.physics, _why(found, change), "", f"Nothing is left to be done: in {back} it is as before.", ""
-        )
+    if found.over_in(change):
+        done = f"Nothing is left to be done about what {enumerated(change.where)} alone had."
+        return Remedy(known.physics, _why(found, change), "", done, "")
     differences = [difference_of(number) for number in change.parameters]
     verb = "it differs" if found.of_arms else "it moved"
     instruction = known.cure.instruction.format_map(_words(known, change.location, differences, verb))
@@ -69,8 +68,8 @@ def _why(found: Comparison, change: Change) -> str:
     between = f"between {earlier[-1]} and {change.where[0]}" if earlier else f"before {change.where[0]}"
     if change.kind in ("went", "shrank"):
         return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
-    if back := found.back_in(change):
-        between = f"{between}, and what put it right before {back}"
+    if over := found.over_in(change):
+        between = f"{between}, and again before {over}"
     return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."
 
 

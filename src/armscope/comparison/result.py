@@ -60,12 +60,13 @@ class Change:
     Attributes:
         effect, location, title: what and where.
         where: the recordings that have it otherwise.
-        against: than these; an effect that changed twice did so from before to between, and from between to after.
+        against: than these, alike in the other changes of the effect.
         kind: what became of it.
         rms_mm: what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb.
         p: by chance, as often as this or more extreme, for any of all causes that were tried.
         parameters: in every recording.
         alternatives: causes that explain the change as well (evidence within 20 to 1).
+        until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
     """
 
     effect: str
@@ -78,6 +79,7 @@ class Change:
     p: float
     parameters: tuple[Valued, ...]
     alternatives: tuple[str, ...]
+    until: str = ""
 
     @property
     def title_with_doubt(self) -> str:
@@ -203,14 +205,13 @@ class Comparison:
         later = len(change.where) - 1
         where = enumerated(change.where) if later < MOST_NAMED else f"{change.where[0]} and the {later} after it"
         if not self.of_arms:
-            return f"{change.kind}{_by(change)} in {where}{' alone' * bool(self.back_in(change))}"
+            return f"{change.kind}{_by(change)} in {where}{' alone' * bool(self.over_in(change))}"
         told = change.against[0] if len(change.against) == 1 else "the others"
         return UNLIKE[change.kind].format(where=where, others=told, by=_by(change))
 
-    def back_in(self, change: Change) -> str:
-        """The recording in which a change was taken back; empty where it was not, and of arms."""
-        later = self.names[self.names.index(change.where[-1]) + 1 :]
-        return "" if self.of_arms else next((name for name in later if name in change.against), "")
+    def over_in(self, change: Change) -> str:
+        """The recording from which a change is over; empty where it lasts, and of arms."""
+        return "" if self.of_arms else change.until
 
     def text(self) -> str:
         """In words, a line per cause and number."""
