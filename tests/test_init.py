@@ -25,6 +25,26 @@ def test_a_name_a_table_and_a_urdf_become_robot_yaml(tmp_path):
     assert "guess: tip" in done.stderr
 
 
+def test_a_urdf_of_one_chain_becomes_robot_yaml(tmp_path):
+    """Nothing to hold: name, file and tip are single values, and what was guessed follows them."""
+    (tmp_path / "arm.urdf").write_text(plain_urdf(6))
+    done = run("init", tmp_path / "arm.urdf", "-o", tmp_path / "robot.yaml")
+    assert done.exit_code == 0, done.output
+    assert load_arm(tmp_path / "robot.yaml").n_motors == 6
+    assert "source:\n  tip: 'guessed" in (tmp_path / "robot.yaml").read_text()
+
+
+def plain_urdf(joints: int) -> str:
+    """A chain of joints that turn, each 0.3 m above the one before."""
+    links = "".join(f'<link name="l{n}"/>' for n in range(joints + 1))
+    chained = "".join(
+        f'<joint name="j{n}" type="revolute"><parent link="l{n}"/><child link="l{n + 1}"/><origin xyz="0 0 0.3"/>'
+        f'<axis xyz="{n % 2} 0 {1 - n % 2}"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>'
+        for n in range(joints)
+    )
+    return f'<robot name="plain">{links}{chained}</robot>'
+
+
 def test_standard_output_holds_the_file_alone(tmp_path):
     done = run("init", "ur10", "-o", "-")
     (tmp_path / "robot.yaml").write_text(done.stdout)

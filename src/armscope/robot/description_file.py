@@ -74,7 +74,9 @@ def as_yaml(description: RobotDescription, folder: Path) -> str:
     source = content.pop("source", {})
     options: dict[str, Any] = {"sort_keys": False, "allow_unicode": True, "width": 1000}
     said = yaml.safe_dump({"source": source}, default_flow_style=False, **options) if source else ""
-    return str(yaml.safe_dump(content, default_flow_style=None, **options)) + said
+    # None would put what holds single values alone on one line in braces, which nothing can follow
+    style = None if any(isinstance(value, dict | list) for value in content.values()) else False
+    return str(yaml.safe_dump(content, default_flow_style=style, **options)) + said
 
 
 def guesses(description: RobotDescription) -> list[str]:
