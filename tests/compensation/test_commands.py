@@ -81,6 +81,17 @@ def test_a_partly_impossible_path_keeps_its_rows_and_gives_no_job(tmp_path):
     assert not (tmp_path / "a.mod").exists()
 
 
+def test_points_of_the_instrument_taken_for_those_of_the_base_are_told_how_to_say_so(tmp_path):
+    save_error_model(tmp_path / "m.json", black_box())
+    said = []
+    for name, away in (("all", [9.0, 0, 0]), ("one", np.repeat([[9.0, 0, 0], [0, 0, 0]], [1, 9], axis=0))):
+        table_of(wanted_points(10) + away).to_csv(tmp_path / "path.csv", index=False)
+        done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / f"{name}.csv")
+        assert done.exit_code == 3
+        said.append("--frame measurement" in done.output)
+    assert said == [True, False]
+
+
 def test_rows_outside_by_different_distances_are_told_in_one_line(tmp_path):
     save_error_model(tmp_path / "m.json", black_box())
     turned = MIDDLE + np.linspace(0.9, 1.2, 6)[:, None] * np.eye(6)[0]

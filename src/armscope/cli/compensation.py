@@ -75,7 +75,7 @@ def compensate(
     from armscope.compensation.black_box import ErrorModel
     from armscope.compensation.compensate import compensate_black_box, compensate_physical
     from armscope.compensation.task import Options
-    from armscope.robot.inverse import LARGEST_STEP_RAD
+    from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD
 
     step = np.inf if separate_points else LARGEST_STEP_RAD
     options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
@@ -86,6 +86,8 @@ def compensate(
     for note in result.notes:
         print(f"note: {note}", file=sys.stderr)
     _tell(result)
+    if frame == "base" and all(BEYOND_REACH in reason for reason in result.reasons):
+        print("no point is within reach of the arm's base: if they are where the instrument stood, --frame measurement")
     write_commands(output, result)
     print(output)
     if not result.reached.all():
