@@ -100,3 +100,15 @@ def test_what_bends_far_more_than_the_rest_is_named(softer: tuple[str, str]) -> 
     wanted[softer] = [10 * value for value in wanted[softer]]
     found = diagnose(arm, recorded(arm, one_run(arm, ROWS, seed=2), wanted, NOISE_MM, seed=3), QUICK).effects[0]
     assert softer in {(found.effect, found.location), *((a.effect, a.location) for a in found.alternatives)}
+
+
+@pytest.mark.parametrize("seed", [3, 4, 7])
+def test_a_base_softer_than_what_bends_is_named_with_what_lies_beside_it_alone(seed: int) -> None:
+    """The background has the base about two axes, which took the name's place, or a gear's with it."""
+    arm, base = arm_named("six-axis"), ("base_compliance", "base")
+    wanted = dict(bending("six-axis", seed))
+    wanted[base] = [4 * value for value in wanted[base]]
+    (found,) = diagnose(arm, recorded(arm, one_run(arm, ROWS, seed), wanted, NOISE_MM, seed + 1), QUICK).effects
+    assert (found.effect, found.location) == base
+    assert {(other.effect, other.location) for other in found.alternatives} <= {("bearing_compliance", "joint 1")}
+    assert found.evidence_nats > 50

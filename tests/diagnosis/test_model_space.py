@@ -9,7 +9,7 @@ import pytest
 
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.inference.problem import prior_costs
-from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, SOFT, backgrounds
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, SOFT, STRUCTURE, backgrounds
 from armscope.physics.drift import Pause, drift_with_pauses
 from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
@@ -134,3 +134,15 @@ def test_families_without_members_are_in_no_start() -> None:
     rigid = build_model_space(free_frames(table, False), list({**families, ELASTIC: [], SOFT: []}.values()), [])
     assert all(start[FAMILIES.index(ELASTIC)] == 0 for start in rigid.starts)
     assert len(set(rigid.starts)) == len(rigid.starts)
+
+
+def test_a_round_base_is_known_to_be_in_a_background_that_has_it_about_two_axes(space: EffectSpace) -> None:
+    base = space.candidates[number(space, "base_compliance", "base", "")]
+    structure = space.families[FAMILIES.index(STRUCTURE)]
+    assert not set(base.columns) & set(structure.columns)
+    assert [space.layout.terms[n].name for n in sorted(base.summed)] == ["compliance_x", "compliance_y"]
+    assert base.is_in(structure.columns)
+    assert not base.is_in(np.array([min(base.summed)]))
+    assert base.summed < set(base.held)
+    others = [c for c in space.candidates if c is not base]
+    assert all(not c.summed and list(c.held) == sorted(c.columns) for c in others)

@@ -5,6 +5,7 @@ All that is known of physics when names compete is decided here, once.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -88,7 +89,7 @@ def build_model_space(
         frames=layout.frames,
         families=_families(layout),
         companions=(_masses(layout, backgrounds, placed, loads),),
-        candidates=_candidates(layout, placed),
+        candidates=_candidates(layout, placed, backgrounds),
         starts=_starts(layout),
         exchanges=_trusting_stated_masses(placed),
         placed=tuple(placed),
@@ -132,8 +133,13 @@ def _masses(
     )
 
 
-def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Candidate, ...]:
+def _candidates(
+    layout: ParameterLayout, placed: Sequence[Placed], backgrounds: Sequence[Sequence[Placed]]
+) -> tuple[Candidate, ...]:
     by_location: dict[str, list[int]] = {}
+    forms: dict[tuple[str, str], list[Placed]] = {}
+    for form in itertools.chain.from_iterable(backgrounds):
+        forms.setdefault(form.key, []).append(form)
     for number, effect in enumerate(placed):
         by_location.setdefault(effect.location, []).append(number)
     coarse = {p.key: n for n, p in enumerate(placed) if p.variant == "angle" and not p.refinement}
@@ -169,9 +175,22 @@ def _candidates(layout: ParameterLayout, placed: Sequence[Placed]) -> tuple[Cand
                 side_by_side=1 if p.variant == "angle" else 2,
                 refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
                 removed_with=removed_with.get(number, frozenset()),
+                summed=_adding_up(layout, p, forms.get(p.key, ())),
             )
         )
     return tuple(candidates)
+
+
+def _adding_up(layout: ParameterLayout, p: Placed, forms: Sequence[Placed]) -> frozenset[int]:
+    """Columns of a background that add up to an effect's one column, where the background has another form of it.
+
+    A base that is as soft about x as about y is one that is soft about x and one that is so about y.
+    """
+    for form in forms if len(p.terms) == 1 else ():
+        parts = [term for term in form.terms if set(term.products) < set(p.terms[0].products)]
+        if sum(len(term.products) for term in parts) == len(p.terms[0].products):
+            return frozenset(layout.index[term] for term in parts)
+    return frozenset()
 
 
 def _looks_like(p: Placed) -> str:

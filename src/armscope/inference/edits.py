@@ -215,15 +215,14 @@ class Edits:
 
     def in_background(self, hypothesis: Hypothesis, candidate: int) -> bool:
         """Whether a background of the hypothesis holds a candidate, too."""
-        columns = set(self.candidate(candidate).columns)
         families = zip(self.space.families, hypothesis.background, strict=True)
-        return any(size and columns <= set(family.columns) for family, size in families)
+        return any(size and self.candidate(candidate).is_in(family.columns) for family, size in families)
 
     def log_odds(self, hypothesis: Hypothesis, candidate: int) -> float:
         """Log odds, nats, of an effect against nothing in its place; a background that holds it too goes with it."""
         if not self.in_background(hypothesis, candidate):
             return hypothesis.log_posterior - self.without(hypothesis, [candidate]).log_posterior + PRIORS.sure_nats
-        lost = savage_dickey(hypothesis, self.candidate(candidate).columns)
+        lost = savage_dickey(hypothesis, self.candidate(candidate).held)
         return profiled_loss(lost, self.problem.n) - float(self.problem.prior_costs[candidate]) + PRIORS.sure_nats
 
     def weakest(self, hypothesis: Hypothesis) -> SelectedEffect | None:

@@ -48,6 +48,7 @@ class Candidate:
         side_by_side: how many special cases of the curve may well stand side by side.
         refines: the candidate of which this is a finer form.
         removed_with: candidates with which, one at a time, it is taken out, too.
+        summed: columns of a background that add up to its own, where that has them in place of its own.
     """
 
     kind: str
@@ -71,6 +72,17 @@ class Candidate:
     side_by_side: int = 1
     refines: int | None = None
     removed_with: frozenset[int] = NONE
+    summed: frozenset[int] = NONE
+
+    @property
+    def held(self) -> Indices:
+        """All columns that are zero where it is held at zero."""
+        return np.union1d(self.columns, np.array(sorted(self.summed), dtype=np.intp))
+
+    def is_in(self, columns: Indices) -> bool:
+        """Whether a background of some columns holds it: by its own columns, or by those that add up to them."""
+        inside = {int(column) for column in columns}
+        return inside.issuperset(self.columns.tolist()) or (bool(self.summed) and self.summed <= inside)
 
     @property
     def key(self) -> tuple[str, str]:

@@ -114,6 +114,26 @@ def test_what_explains_nothing_is_no_rival_however_faint_the_name() -> None:
     assert alternatives(Search.on(problem), best)[DRIVE_AT] == []
 
 
+def test_what_is_less_likely_than_nothing_is_no_rival() -> None:
+    """A faint effect stands little above nothing in its place; so would any other column, near enough to be listed."""
+    rng = np.random.default_rng(11)
+    X = rng.normal(size=(200, 3))
+    both = tuple(Candidate(name, "here", np.array([n]), np.ones(1)) for n, name in ((1, "faint"), (2, "other")))
+    space = ModelSpace(np.array([0]), (), both)
+    problem = build_problem(space, sums(X, 0.035 * X[:, 1] + rng.normal(0, 0.1, len(X))), 0.05)
+    nothing, best, other = (
+        max((evaluate(problem, chosen, (), 0.1) for chosen in readings), key=by_posterior)
+        for readings in (
+            [()],
+            *([(SelectedEffect(n, size),) for size in range(len(problem.sizes))] for n in (0, 1)),
+        )
+    )
+    assert 0 < best.log_posterior - nothing.log_posterior < 10
+    assert nothing.log_posterior - other.log_posterior > 0
+    assert best.log_posterior - other.log_posterior < 10
+    assert alternatives(Search.on(problem), best)[0] == []
+
+
 @pytest.mark.parametrize("alike", [0.0, 1.0])
 def test_what_was_refused_beside_an_effect_does_not_take_its_place(alike: float) -> None:
     """The other column is large and by itself; or it is nearly the effect's own, and may well be it instead."""

@@ -104,8 +104,8 @@ def _in_place_of(
     explained_anyway = search.in_background(best, number)
     held: tuple[int, ...] = ()
     if explained_anyway and not rest:
-        held = tuple(int(column) for column in candidate.columns)
-        search = search.holding(candidate.columns)
+        held = tuple(int(column) for column in candidate.held)
+        search = search.holding(candidate.held)
     base = search.without(best, [number, *rest])
     taken = {search.candidate(c).key for c in best.candidates}
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
@@ -124,8 +124,9 @@ def _in_place_of(
         asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
         if (rest and excluded) or rival.key in taken or not (near or asked):
             continue
-        if (explained_anyway or own) and other.log_posterior - own < base.log_posterior + PRIORS.sure_nats:
-            continue  # it explains nothing of what the effect does
+        worth = PRIORS.sure_nats if explained_anyway or own else 0.0
+        if other.log_posterior - own < base.log_posterior + worth:
+            continue  # it explains nothing of what the effect does: nothing at all is likelier in its place
         if rest and rival.variant == "load" and rival.is_curve:
             rival = lines.get(rival.location, rival)
         found.append(Rival(gap, rival, other, near, held))
