@@ -214,86 +214,8 @@ class WrongGravity(Constants):
     )
 
 
-@dataclass(frozen=True)
-class MotionRules(Constants):
-    """What is odd in a table of an arm in motion."""
-
-    speed_scale: float = constant(
-        0.05,
-        "share by which a recorded speed may differ from the angle's derivative",
-        "judgement: units differ by far more, filters by less",
-    )
-    late: float = constant(
-        1.0, "that a recorded speed may be late", "judgement: a backward difference is late by half", unit="samples"
-    )
-    farthest_lag: int = constant(40, "over which a speed's lag is looked for", "judgement: time", unit="samples")
-    clear_derivative: float = constant(
-        0.5,
-        "share of the derivative's power that a recorded speed must follow",
-        "judgement: too noisy a derivative tells neither scale nor lag",
-    )
-    same_path: float = constant(
-        0.01,
-        "of the joints' ranges, nearer than which one run's path is another's",
-        "judgement: above what control leaves, below another path",
-    )
-    far_turns: float = constant(
-        4 * np.pi, "beyond which an angle may be in degrees", "judgement: two turns; most joints have less", unit="rad"
-    )
-    rows: int = constant(3000, "that are looked at, spread evenly", "judgement: time", unit="rows")
-    coarse: float = constant(
-        0.05, "over which positions are differenced", "judgement: sign and size show, noise does not", unit="s"
-    )
-    samples: int = constant(20, "fewest such samples of a run", "judgement: fewer tell nothing", unit="samples")
-    explained: float = constant(
-        0.8,
-        "share of a joint's torque, beyond friction, that masses must explain for its sign, size, unit or order to "
-        "be judged",
-        "judgement: where they explain less the rest may be anything",
-    )
-    other_size: float = constant(
-        3.0,
-        "times the masses' torque, from which most joints' is another quantity",
-        "judgement: masses are known better",
-    )
-    no_load: float = constant(
-        30.0,
-        "times the masses' torque, from which one joint's is another quantity",
-        "judgement: ten times that of most",
-    )
-    reading_rows: int = constant(300, "that other units and orders are tried on", "judgement: time", unit="rows")
-    reading_samples: int = constant(
-        60, "fewest samples on which they are tried", "judgement: fewer tell nothing", unit="samples"
-    )
-    clearly: float = constant(
-        5.0,
-        "times less than as stated that another reading must leave",
-        "judgement: no chance of a few rows does so much",
-    )
-    clock: tuple[float, float, float] = constant(
-        (0.06, 0.5, 0.01),
-        "from which, up to which and in which steps torque is looked for at another time than motion",
-        "judgement: a diagnosis tries 36 ms, recordings started by hand differ by more; beyond, nobody overlooks it",
-        unit="s",
-    )
-    at_another_time: float = constant(
-        2.0,
-        "times less that a joint's torque must leave at another time",
-        "measured: three real sets leave 1.03 times less at most at any other time; put off by 200 ms, EMPS 2.3",
-    )
-    link_factor: float = constant(
-        0.05,
-        "of the motor's travel, by which a link's may differ",
-        "judgement: no drive winds up so far, and no reduction is so wrong",
-    )
-    link_travel: float = constant(
-        0.02, "travel of a motor below which its link shows nothing", "judgement: about a degree", unit="rad or m"
-    )
-
-
 TRIALS = TrialRules()
 OTHER_ARMS = OtherArms()
 TABLE = TableRules()
 QUANTITIES = Quantities()
 WRONG_GRAVITY = WrongGravity()
-MOTION = MotionRules()

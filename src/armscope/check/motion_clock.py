@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
-from armscope.check.constants import MOTION
+from armscope.check.motion_constants import MOTION
 from armscope.check.motion_readings import Samples
 from armscope.check.suspicion import Suspicion
 from armscope.core.types import Array, Indices
@@ -62,7 +63,10 @@ def _percent(share: float) -> str:
 
 
 def _left(motions: Motions, runs: dict[str, tuple[Array, Samples]], arm: MovingArm, lags: Array) -> Array:
-    """(lags, m) share of the power of each joint's torque that offset, friction, rotor and masses leave at each lag."""
+    """(lags, m) share of the power of each joint's torque that offset, friction, rotor and masses leave at each lag.
+
+    Where a joint stands, its friction may be anything, at every lag alike.
+    """
     torque, moved = [], []
     for run, (time, few) in runs.items():
         if not len(time):
@@ -80,10 +84,14 @@ def _left(motions: Motions, runs: dict[str, tuple[Array, Samples]], arm: MovingA
     rigid = arm.torques(q, dq, ddq, arm.inertial)
     left = np.ones(tau.shape[1:])
     for j in range(tau.shape[2]):
-        ordinary = np.column_stack([np.ones(len(q)), np.sign(dq[:, j]), dq[:, j], ddq[:, j], rigid[:, j]])
+        near = maximum_filter1d(np.abs(dq[:, j]), 2 * MOTION.around + 1)  # a joint that turns back does not stand
+        moving = near > MOTION.standing * near.max()
+        if moving.sum() < MOTION.reading_samples:
+            continue
+        shifted, speed = tau[moving, :, j], dq[moving, j]
+        ordinary = np.column_stack([np.ones(len(shifted)), np.sign(speed), speed, ddq[moving, j], rigid[moving, j]])
         basis = np.linalg.svd(ordinary, full_matrices=False)[0]
-        recorded = tau[:, :, j] - tau[:, :, j].mean(axis=0)
-        power = np.sum(recorded**2, axis=0)
-        missed = np.sum((tau[:, :, j] - basis @ (basis.T @ tau[:, :, j])) ** 2, axis=0)
+        power = np.sum((shifted - shifted.mean(axis=0)) ** 2, axis=0)
+        missed = np.sum((shifted - basis @ (basis.T @ shifted)) ** 2, axis=0)
         left[:, j] = np.where(power > 0, missed / np.maximum(power, 1e-300), 1.0)
     return left

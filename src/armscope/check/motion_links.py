@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from armscope.check.constants import MOTION
+from armscope.check.motion_constants import MOTION
 from armscope.check.suspicion import Suspicion
 from armscope.recordings.motions import Motions
 

@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from armscope.check.constants import MOTION
 from armscope.check.motion_clock import other_clock
+from armscope.check.motion_constants import MOTION
 from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
 from armscope.check.suspicion import Suspicion, verdict_lines

@@ -71,22 +71,17 @@ def test_what_comes_in_place_of_a_struck_name_foretells_motion(
     assert all(gain > 0 for gain in held_out_gains(found).values())
 
 
-def test_a_name_that_foretells_nothing_beyond_its_neighbours_goes_and_nothing_takes_its_place(
+def test_a_name_of_masses_that_is_hardly_likelier_than_none_goes_and_nothing_takes_its_place(
     selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Evidence of a hundred nats for a link's mass, whose torque unnamed masses hold as well, was told as a fact."""
     stands = tenable(selected, 200.0)
     mass = next(n for n, each in enumerate(stands.rows.layout.placed) if each.cause.name == "link_mass")
     more = dataclasses.replace(stands.best.chosen[0], candidate=mass)
-    search = Search.on(stands.problem)
-    both = dataclasses.replace(stands, best=search.evaluated([*stands.best.chosen, more], stands.best))
-    odds, usual = search.log_odds, judging._gains_by_block
-    for share, kept in ((0.3, True), (0.1, False)):
-        foretold = np.full(len(both.blocks), share * 100 / len(both.blocks))
-        monkeypatch.setattr(Search, "log_odds", lambda self, best, n: 100.0 if n == mass else odds(best, n))
-        monkeypatch.setattr(
-            judging, "_gains_by_block", lambda at, n, told=foretold: told if n == mass else usual(at, n)
-        )
-        found = judging._earning(both)
+    both = dataclasses.replace(
+        stands, best=Search.on(stands.problem).evaluated([*stands.best.chosen, more], stands.best)
+    )
+    for odds, kept in ((3.1, True), (2.9, False)):
+        monkeypatch.setattr(judging, "odds_of_name", lambda at, number, told=odds: told)
+        found = judging._told_apart(both)
         assert (mass in found.best.candidates) is kept
         assert found.best.candidates - {mass} == stands.best.candidates

@@ -31,12 +31,10 @@ class PlausibleRules(Constants):
 class NamingRules(Constants):
     """What a name and its number must be worth to be told."""
 
-    borne_out: float = constant(
-        0.15,
-        "of a name's evidence that motion which took no part must bear out",
-        "measured: where something was planted 1.2 and more (ten kinds on own arms); the Panda's hand, known to "
-        "be absent, 0.25; masses of two links of the UR10e, without which nothing is foretold worse, 0.07 and 0.10",
-        unit="1",
+    shares_of_a_link: tuple[float, ...] = constant(
+        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0),
+        "by which a link's own inertial parameters may be off unnamed, beside a name that speaks of it",
+        "judgement: as of all links, and on to links that are another one",
     )
     determined: float = constant(
         0.8,

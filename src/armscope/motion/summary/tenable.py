@@ -26,8 +26,10 @@ from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import OWN
-from armscope.motion.summary.constants import NAMING, PLAUSIBLE
+from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
+from armscope.motion.summary.unnamed_masses import odds_of_name
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
@@ -54,7 +56,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         alone = _alone(again, kept)
         others = number + 1 < CONSISTENCY.judged and _foretells_more(again, alone.best)
         selected = at_own_gain(again if others else alone)
-    return _earning(selected)
+    return _told_apart(selected)
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
@@ -177,33 +179,19 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     yield from useless if lost <= 0 else [min(useless, key=gains.__getitem__)]
 
 
-def _earning(selected: SelectedCauses) -> SelectedCauses:
-    """The selection without names whose evidence motion that took no part does not bear out, the least of them first.
+def _told_apart(selected: SelectedCauses) -> SelectedCauses:
+    """The selection without names of masses that are hardly likelier than none, the least of them first.
 
-    Evidence beyond what is foretold is what the prior of its neighbours asks for: masses, gains and friction that have
-    no name hold the same torque nearly as well, and do so from here on.
+    Not of what is there in some runs only: no link is otherwise there.
     """
-    while (least := min(_borne_out(selected), default=(np.inf, 0)))[0] < NAMING.borne_out:
-        kept = [effect for effect in selected.best.chosen if effect.candidate != least[1]]
+    placed = selected.rows.layout.placed
+    while True:
+        masses = [n for n in selected.best.candidates if placed[n].inertial is not None and not placed[n].runs]
+        odds, least = min(((odds_of_name(selected, number), number) for number in masses), default=(np.inf, 0))
+        if odds >= INDISTINGUISHABLE_NATS:
+            return selected
+        kept = [effect for effect in selected.best.chosen if effect.candidate != least]
         selected = at_own_gain(_alone(selected, kept))
-    return selected
-
-
-def _borne_out(selected: SelectedCauses) -> Iterator[tuple[float, int]]:
-    """Of each name's evidence, the share that other motion bears out; and the name's number.
-
-    Not of a curve, which is no name, nor of what is there in some runs only: no other run foretells it. What such runs
-    leave without their own cause drowns all else.
-    """
-    best, layout, search = selected.best, selected.rows.layout, Search.on(selected.problem)
-    own = {run for number in best.candidates for run in layout.placed[number].runs}
-    usual = [n for n in range(len(selected.blocks)) if not own & set(selected.rows.run[selected.block == n].tolist())]
-    for number in best.candidates:
-        if layout.placed[number].cause.nameless or layout.placed[number].runs:
-            continue
-        gains = _gains_by_block(selected, number)
-        foretold = max(float(np.sum(gains[usual])), len(gains) * float(np.median(gains)))
-        yield foretold / search.log_odds(best, number), number
 
 
 def held_out_gains(selected: Weighed) -> dict[int, float]:

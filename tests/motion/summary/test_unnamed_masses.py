@@ -1,0 +1,57 @@
+"""A name of masses is told from a link that is off in some other way, not only from one that is as stated."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from armscope.inference.problem import SelectedEffect
+from armscope.inference.search import Search
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.summary.unnamed_masses import odds_of_name
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
+from tests.motion.moving import ROBOT, moved, robot
+
+FIRST, SECOND, LAST = ROBOT["links"]  # type: ignore[misc]
+
+
+def with_the_second(**otherwise: object) -> SelectedCauses:
+    """What is selected on motion of an arm whose second link is not as stated."""
+    true = robot(links=[FIRST, {**SECOND, **otherwise}, LAST])  # type: ignore[dict-item]
+    return diagnose_motion(robot(), moved(true, 5), MotionSettings(cutoff=10.0)).selected
+
+
+def placed(selected: SelectedCauses, name: str, place: str) -> int:
+    causes = enumerate(selected.rows.layout.placed)
+    return next(n for n, each in causes if (each.cause.name, each.location) == (name, place))
+
+
+def named(selected: SelectedCauses, number: int) -> SelectedCauses:
+    """With that name alone."""
+    search = Search.on(selected.problem)
+    best = search.with_best_sizes(search.evaluated([SelectedEffect(number, 0)], selected.best))
+    return dataclasses.replace(selected, best=best)
+
+
+def test_a_heavier_link_is_told_from_one_that_is_otherwise_off() -> None:
+    heavier: dict[str, Any] = {
+        "mass_kg": 1.2 * SECOND["mass_kg"],
+        "inertia_kg_m2": [1.2 * each for each in SECOND["inertia_kg_m2"]],
+    }
+    selected = with_the_second(**heavier)
+    mass = placed(selected, "link_mass", "link 2")
+    assert selected.best.candidates == {mass}
+    assert odds_of_name(selected, mass) > 3 * INDISTINGUISHABLE_NATS
+
+
+def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
+    """Beside masses that are held as the other links' it would be: by hundreds of nats."""
+    selected = with_the_second(com_mm=[-130, 30, 50], inertia_kg_m2=[0.06, 0.2, 0.16, 0.01, 0.0, 0.02])
+    mass = placed(selected, "link_mass", "link 2")
+    heavier = named(selected, mass)
+    held = dataclasses.replace(heavier.best, background=(1, *heavier.best.background[1:]))
+    near = dataclasses.replace(heavier, best=Search.on(heavier.problem).evaluated(held.chosen, held, held.background))
+    assert Search.on(near.problem).log_odds(near.best, mass) > 100
+    assert odds_of_name(heavier, mass) < INDISTINGUISHABLE_NATS
+    assert mass not in selected.best.candidates
