@@ -52,17 +52,3 @@ def test_a_base_that_drifts_is_told_beside_its_wander(arm: Arm) -> None:
     table = moving_base(arm, 1.5e-3 * ALONG + 5e-5 * np.sin(6 * np.pi * ALONG))
     verdict = diagnose(arm, table, QUICK)
     assert "base_drift" in {effect.effect for effect in verdict.effects}
-
-
-def test_jumps_are_asked_as_drifts_are_whether_they_predict_without_the_wander(arm: Arm, monkeypatch) -> None:
-    """With one of 6 numbers and a wander, too, a real arm's orientations put its points off by a tenth more."""
-    asked: set[str] = set()
-
-    def spy(problem, blocks, hypothesis, drifts, wander):
-        asked.update(problem.space.candidates[n].kind for n in drifts)
-        return hypothesis
-
-    monkeypatch.setattr("armscope.diagnosis.what_stands.with_drifts_of_their_own", spy)
-    table = moving_base(arm, 6e-4 * np.tanh(15 * (ALONG - 0.5)))
-    assert "base_shift" in {effect.effect for effect in diagnose(arm, table, QUICK).effects}
-    assert {"base_drift", "base_shift"} <= asked

@@ -15,7 +15,6 @@ from typing import Annotated, Any, cast, get_type_hints
 
 import typer
 from typer.core import TyperCommand
-from typer.models import ArgumentInfo
 
 from armscope.cli.endings import plain_words, told_to_end
 from armscope.core.inputs import InputError
@@ -24,7 +23,7 @@ from armscope.core.parallel import processes
 from armscope.core.streams import is_stream
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
-"""Options of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
+"""Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
 ALIKE, SOMEHOW_ALIKE = 0.7, 0.5
 """Likeness (0 to 1) from which a name is taken for a misspelt one: any, and one with the same ending."""
@@ -82,7 +81,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     hints = get_type_hints(function, include_extras=True)
     signature = inspect.signature(function)
     parameters = [each.replace(annotation=hints[each.name]) for each in signature.parameters.values()]
-    outputs = {name for name, hint in hints.items() if _is_written(name, getattr(hint, "__metadata__", ()))}
+    outputs = {name for name, hint in hints.items() if name in OUTPUTS or WRITTEN in getattr(hint, "__metadata__", ())}
     added = [inspect.Parameter("quiet", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Quiet)]
     if outputs:
         added.append(inspect.Parameter("force", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Force))
@@ -115,12 +114,6 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     cast(Any, run).__signature__ = signature.replace(parameters=[*parameters, *added])
     run.__annotations__ = {each.name: each.annotation for each in [*parameters, *added]} | {"return": None}
     return run
-
-
-def _is_written(name: str, marks: tuple[object, ...]) -> bool:
-    """Whether a parameter is what a command writes: an option, as what stands without one is read."""
-    argument = any(isinstance(mark, ArgumentInfo) for mark in marks)
-    return WRITTEN in marks or (name in OUTPUTS and not argument)
 
 
 def _refuse_endless(values: dict[str, Any]) -> None:

@@ -31,13 +31,13 @@ def worlds(
 
 @app.command()
 def diagnose(
-    visible: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and motions.csv of each")],
+    folder: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and motions.csv of each")],
     output: Output,
 ) -> None:
     """Diagnose every world of a folder and predict its test path, each by its visible files alone."""
     from armscope.proof.motion.diagnosing import diagnose_worlds
 
-    diagnose_worlds(worlds_in(visible), output)
+    diagnose_worlds(worlds_in(folder), output)
 
 
 @app.command()

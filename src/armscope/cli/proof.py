@@ -52,7 +52,7 @@ def worlds(
 
 @app.command()
 def diagnose(
-    visible: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and recordings.csv of each")],
+    folder: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and recordings.csv of each")],
     output: Output,
     resamples: Annotated[int, typer.Option(help="how often rows are resampled")] = 0,
     cross_validation: Annotated[bool, typer.Option(help="whether each verdict is cross-validated")] = False,
@@ -62,7 +62,7 @@ def diagnose(
     from armscope.proof.diagnosing import diagnose_worlds
 
     settings = Settings(resamples=resamples, cross_validation=cross_validation)
-    diagnose_worlds(worlds_in(visible), output, settings)
+    diagnose_worlds(worlds_in(folder), output, settings)
 
 
 @app.command()

@@ -100,7 +100,7 @@ def predicted_better(
 def with_drifts_of_their_own(
     problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis, drifts: Set[int], wander: Indices
 ) -> Hypothesis:
-    """The hypothesis without named drifts and jumps that a wander takes back.
+    """The hypothesis without named drifts that a wander takes back.
 
     Both move the base in the order of time. A drift of centimetres against a wander of centimetres can follow what
     neither can alone, but it is no motion that anybody would measure: without the wander it predicts worse than none.
@@ -109,11 +109,11 @@ def with_drifts_of_their_own(
         problem: the sums of all rows, priors and costs.
         blocks: sums of blocks of rows.
         hypothesis: chosen on all rows.
-        drifts: candidates that are drifts, or jumps.
+        drifts: candidates that are drifts.
         wander: columns of the wander.
 
     Returns:
-        The hypothesis with those that predict by themselves.
+        The hypothesis with the drifts that predict by themselves.
     """
     for drift in sorted(drifts & hypothesis.candidates if len(wander) else ()):
         less = Search.on(problem).without(hypothesis, [drift])

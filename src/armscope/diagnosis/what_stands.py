@@ -39,7 +39,7 @@ def what_stands(
     left = earned(problem, blocks, hypothesis)
     columns = [space.layout.of(placed) for placed in wander]
     if columns:
-        drifts = {n for n, placed in enumerate(space.placed) if placed.effect is BASE_DRIFT or placed.effect.jumps}
+        drifts = {n for n, placed in enumerate(space.placed) if placed.effect is BASE_DRIFT}
         left = with_drifts_of_their_own(problem, blocks, left, drifts, np.unique(np.concatenate(columns)))
     of_rows = [each for each, placed in zip(columns, wander, strict=True) if is_of_rows(placed)]
     return steady(problem, blocks, left, FAMILIES.index(DRIFT), of_rows)
