@@ -1,4 +1,4 @@
-"""What stands without an option is read, never written."""
+"""A folder of worlds is read, never written: no command takes it for an output of the same name."""
 
 from pathlib import Path
 

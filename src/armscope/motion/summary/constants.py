@@ -31,10 +31,10 @@ class PlausibleRules(Constants):
 class NamingRules(Constants):
     """What a name and its number must be worth to be told."""
 
-    shares_of_a_link: tuple[float, ...] = constant(
-        (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0),
-        "by which a link's own inertial parameters may be off unnamed, beside a name that speaks of it",
-        "judgement: as of all links, and on to links that are another one",
+    another_link: tuple[float, ...] = constant(
+        (1.0, 3.0),
+        "shares, beyond those of all links, by which inertial parameters of links with a name may be off without it",
+        "judgement: a link that is another one than stated",
     )
     determined: float = constant(
         0.8,

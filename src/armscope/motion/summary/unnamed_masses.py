@@ -16,8 +16,11 @@ from armscope.core.types import Indices
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import ToleranceFamily
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.summary.constants import NAMING
+
+SHARES = (*PRIOR.inertial_shares, *NAMING.another_link)
 
 
 def odds_of_name(selected: SelectedCauses, number: int) -> float:
@@ -50,7 +53,7 @@ def _with_own_share(selected: SelectedCauses, own: Indices) -> Problem:
     """The problem with some inertial parameters in a family of their own, the last of all."""
     space, problem = selected.space, selected.problem
     others = tuple(family.without(own) if family.name == "masses" else family for family in space.families)
-    family = ToleranceFamily("own masses", own, np.ones(len(own)), NAMING.shares_of_a_link)
+    family = ToleranceFamily("own masses", own, np.ones(len(own)), SHARES)
     families = (*others, family)
     return replace(problem, space=replace(space, families=families), family_costs=np.append(problem.family_costs, 0.0))
 
@@ -61,7 +64,7 @@ def _at_best_shares(selected: SelectedCauses, freed: Problem, effects: tuple[Sel
     masses = next(n for n, family in enumerate(selected.space.families) if family.name == "masses")
     found = -np.inf
     for size in range(selected.space.families[masses].sizes):
-        for own in range(len(NAMING.shares_of_a_link)):
+        for own in range(len(SHARES)):
             sizes = (*background[:masses], size, *background[masses + 1 :], own)
             found = max(found, evaluate(freed, effects, sizes, noise).log_posterior)
     return float(found)
