@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from armscope.cli.commands import Commands, NominalArm
+from armscope.cli.commands import ArmOrFolders, Commands
 from armscope.core.inputs import InputError
 
 app = Commands()
@@ -19,16 +19,21 @@ TABLES = ("calibration.csv", "held.csv", "covariance.csv", "misses.csv")
 
 @app.command()
 def check(
-    recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
-    robot: Annotated[Path | None, typer.Option("--robot", "-r", help="robot.yaml: also compare with the arm")] = None,
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv or motions.csv, or a folder with one")],
+    robot: Annotated[
+        Path | None,
+        typer.Option("--robot", "-r", help="robot.yaml: also compare with the arm; that of a folder if left out"),
+    ] = None,
     figure: Annotated[Path | None, typer.Option(help="draw poses and joint coverage (PNG, SVG and PDF)")] = None,
     json: Annotated[bool, typer.Option("--json", help="print what looks wrong as JSON in place of words")] = False,
 ) -> None:
     """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
+    from armscope.cli.folders import robot_in, table_in
     from armscope.cli.motion import check_motions_table
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.recordings.first_lines import is_motion_table
 
+    robot, recordings = robot or robot_in(recordings), table_in(recordings)
     if is_motion_table(recordings):
         if figure is not None:
             raise InputError("--figure", "", str(figure), "of a table of motions there is none")
@@ -59,9 +64,9 @@ def check(
 
 @app.command()
 def calibrate(
-    recordings: Annotated[Path, typer.Argument(help="recordings.csv")],
-    robot: NominalArm,
+    recordings: Annotated[Path, typer.Argument(help="recordings.csv, or a folder with it")],
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for robot.yaml, URDF and frames")],
+    robot: ArmOrFolders = None,
     level: Annotated[
         Literal["nominal", "offsets", "geometric", "compliance"],
         typer.Option(help="what is fitted beside base and tool"),
@@ -92,11 +97,12 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace
 
+    from armscope.cli.folders import robot_for, table_in
     from armscope.cli.robots import arm_and_tables
     from armscope.core.files import writable, write_table
 
     writable(output, *FILES, *TABLES)
-    arm, (table,) = arm_and_tables(robot, [recordings])
+    arm, (table,) = arm_and_tables(robot_for(robot, recordings), [table_in(recordings)])
 
     from armscope.calibration.calibrate import calibrate as calibrated
     from armscope.calibration.export import export

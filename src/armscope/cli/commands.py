@@ -35,6 +35,15 @@ Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to 
 NominalArm = Annotated[
     Path, typer.Option("--robot", "-r", help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list)")
 ]
+ArmOrFolders = Annotated[
+    Path | None,
+    typer.Option(
+        "--robot",
+        "-r",
+        help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list); that of a folder if left out",
+    ),
+]
+"""As a parameter ``robot`` beside a table: `armscope.cli.folders` says which file is meant."""
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 Threads = Annotated[
     int, typer.Option(min=1, help="processes that share the rows of a long table; the result is the same")

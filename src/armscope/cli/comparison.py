@@ -7,21 +7,17 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
+from armscope.cli.commands import ArmOrFolders, Commands
 
 app = Commands()
-
-RECORDINGS, ROBOT = "recordings.csv", "robot.yaml"
 
 
 @app.command()
 def compare(
     recordings: Annotated[
-        list[Path], typer.Argument(help=f"two or more tables, or folders with {RECORDINGS}, in the order of time")
+        list[Path], typer.Argument(help="two or more tables, or folders with recordings.csv, in the order of time")
     ],
-    robot: Annotated[
-        Path | None, typer.Option("--robot", "-r", help=f"the nominal arm; {ROBOT} in the first folder if left out")
-    ] = None,
+    robot: ArmOrFolders = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="folder for changes.html, comparison.json and history.csv")
     ] = None,
@@ -35,14 +31,10 @@ def compare(
     Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
     changed. Base and tool may differ.
     """
+    from armscope.cli.folders import robot_for, table_in
     from armscope.cli.robots import arm_and_tables, print_json
-    from armscope.core.inputs import InputError
 
-    if robot is None and recordings[0].is_file():
-        rule = f"the nominal arm must be known: {ROBOT} stands beside no table, only in a folder"
-        raise InputError("--robot", "", "nothing", rule, "Add --robot robot.yaml, or name folders.")
-    files = [_inside(each, RECORDINGS) for each in recordings]
-    arm, read = arm_and_tables(robot or _inside(recordings[0], ROBOT), files)
+    arm, read = arm_and_tables(robot_for(robot, recordings[0]), [table_in(each) for each in recordings])
     tables = dict(zip(_names(recordings), read, strict=True))
 
     from armscope.comparison import compare as compare_recordings
@@ -59,10 +51,6 @@ def compare(
         print(found.text())
         if page is not None:
             print(page)
-
-
-def _inside(path: Path, name: str) -> Path:
-    return path / name if path.is_dir() else path
 
 
 def _names(paths: list[Path]) -> list[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from armscope.cli.commands import Commands, NominalArm, Threads
+from armscope.cli.commands import ArmOrFolders, Commands, Threads
 from armscope.cli.endings import exit_code_of
 from armscope.core.types import unheard
 
@@ -28,10 +28,11 @@ PAGES = (
 @app.command()
 def diagnose(
     recordings: Annotated[
-        Path, typer.Argument(help="recordings.csv: commanded angles and measured positions; or motions.csv")
+        Path,
+        typer.Argument(help="recordings.csv: commanded angles and measured positions; motions.csv; a folder with one"),
     ],
-    robot: NominalArm,
     output: Annotated[Path, typer.Option("--output", "-o", help="folder for report, verdict, model and figures")],
+    robot: ArmOrFolders = None,
     run: Annotated[list[str] | None, typer.Option(help="only these runs (may be given several times)")] = None,
     first_id: Annotated[int | None, typer.Option(help="leave out rows with a smaller id")] = None,
     seed: Annotated[int, typer.Option(min=0, help="seed of the random folds and resampling")] = 0,
@@ -78,12 +79,14 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
+    from armscope.cli.folders import robot_for, table_in
     from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.core.files import writable
     from armscope.recordings.first_lines import is_motion_table
     from armscope.verdict.filenames import FILES
 
+    robot, recordings = robot_for(robot, recordings), table_in(recordings)
     moving = is_motion_table(recordings)
     of_points = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
     of_points["--estimate-gravity"] = estimate_gravity or None
