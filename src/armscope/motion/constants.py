@@ -263,7 +263,7 @@ class MotionTelling(Constants):
     )
     clearly_better: float = constant(
         0.8,
-        "of the held-out error without causes, below which named causes help although they are not found anew",
+        "of the held-out error without causes, below which they help although not found anew; so do nameless masses",
         "judgement: a fifth is more than folds differ by",
     )
     in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")

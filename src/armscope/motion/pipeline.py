@@ -229,9 +229,9 @@ def _judged(
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = (*lasting_torques(selected), *friction_by_run(selected))
     left = unexplained(found, lasting)
-    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out)
-    answer, mismatch = answer_of(found, left, errors)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
+    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, sizes["masses"])
+    answer, mismatch = answer_of(found, left, errors)
     verdict = MotionVerdict(
         answer=answer,
         headline=headline(found, errors, lasting),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.motion.library import clauses, remedies
+from armscope.motion.library import clauses, remedies, remedies_of_laws
 from armscope.motion.library.causes import Cause
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.verdict.effects import UNKNOWN
@@ -69,6 +69,7 @@ STRIBECK = Cause(
     "Drive the joint at many constant slow speeds, either way.",
     "Add a Stribeck term exp(-(speed/width)^2) to the friction model.",
     clause=clauses.stribeck_clause,
+    remedy=remedies_of_laws.near_rest,
 )
 LOAD_FRICTION = Cause(
     "load_friction",
@@ -88,6 +89,7 @@ VISCOUS_CURVE = Cause(
     "Drive the joint at constant speeds up to its fastest.",
     "Use a curve of friction over speed instead of one coefficient.",
     clause=clauses.at_place("friction of {} is not in proportion to speed"),
+    remedy=remedies_of_laws.curve_of_speed,
 )
 TEMPERATURE_FRICTION = Cause(
     "thermal_friction",
@@ -96,14 +98,16 @@ TEMPERATURE_FRICTION = Cause(
     "Repeat one motion cold and warm.",
     "Let friction follow the temperature, or warm the arm up first.",
     clause=clauses.at_place("friction of {} changes with temperature"),
+    remedy=remedies_of_laws.with_warmth,
 )
 COUPLED_FRICTION = Cause(
     "coupled_friction",
     FRICTION,
     "Something between two joints rubs with the sum or difference of their speeds.",
     "Move one of the joints alone and watch the other one's torque.",
-    "Let the friction of both joints follow the sum of their speeds, too.",
+    "Let the friction of both joints follow the sum or difference of their speeds, too.",
     clause=clauses.between_joints("something rubs between {}"),
+    remedy=remedies_of_laws.rubbing,
 )
 COUPLED_INERTIA = Cause(
     "coupled_inertia",
@@ -113,6 +117,7 @@ COUPLED_INERTIA = Cause(
     "State how the two joints' motors are coupled (`actuation`), with their rotor inertias.",
     nonnegative=True,
     clause=clauses.between_joints("something heavy turns between {}"),
+    remedy=remedies_of_laws.turning_along,
 )
 GAIN = Cause(
     "motor_constant",
@@ -140,6 +145,7 @@ BALANCER = Cause(
     "Hold the joint still at several positions and compare its torque with gravity's.",
     "Add the spring's or counterweight's torque to the model.",
     clause=clauses.balance_clause,
+    remedy=remedies_of_laws.spring,
 )
 RIPPLE = Cause(
     "torque_ripple",
@@ -148,6 +154,7 @@ RIPPLE = Cause(
     "Turn the joint slowly at constant speed and look at the torque over its angle.",
     "Add the waves to the model.",
     clause=clauses.ripple_clause,
+    remedy=remedies_of_laws.waves,
 )
 CABLE = Cause(
     "cable_torque",
@@ -162,7 +169,7 @@ LINK_MASS = Cause(
     MASSES,
     "A link is heavier or lighter than stated, with its centre of mass where it is stated.",
     "Weigh the link, or hold the arm still with it level.",
-    "Correct the link's mass and inertia.",
+    "Correct the link's mass, and its inertia in proportion.",
     in_bodies=True,
     clause=clauses.than_stated("{} is", "heavier", "lighter"),
     remedy=remedies.add_to_stated,
@@ -176,6 +183,7 @@ LINK_CENTRE = Cause(
     in_bodies=True,
     labels=_MOMENTS,
     clause=clauses.moment_clause,
+    remedy=remedies.with_its_centre,
 )
 LINK_INERTIA = Cause(
     "link_inertia",
@@ -185,6 +193,7 @@ LINK_INERTIA = Cause(
     "Correct the link's inertia.",
     in_bodies=True,
     clause=clauses.at_place("the inertia of {} is not as stated"),
+    remedy=remedies.with_its_inertia,
 )
 PAYLOAD = Cause(
     "payload_error",
@@ -206,6 +215,7 @@ BODY = Cause(
     in_bodies=True,
     labels={"times": "times what it weighs"},
     clause=clauses.body_clause,
+    remedy=remedies.as_often_as,
 )
 GRAVITY = Cause(
     "gravity_direction",

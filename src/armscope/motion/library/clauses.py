@@ -222,8 +222,8 @@ def wave_clause(cause: FoundCause, numbers: Numbers) -> str:
 def lag_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Encoders that are read at different times."""
     lag = numbers["lag"]
-    side = "after" if lag.value > 0 else "before"
-    return f"the link of {cause.location} was read {amount(lag)} {side} its motor"
+    side = "late" if lag.value > 0 else "early"
+    return f"the link of {cause.location} was recorded {amount(lag)} too {side} beside its motor"
 
 
 def nameless_twist(cause: FoundCause, numbers: Numbers) -> str:

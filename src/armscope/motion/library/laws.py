@@ -61,20 +61,13 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
     """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
 
-    So dry and viscous friction stay what a fit without the curve would say.
+    So dry and viscous friction that are fitted stay what a fit without the curve would say.
     """
     speed, turned = _speed(m, joints), _side(m, joints, width)
     of_square, of_cube = nearest[:2], nearest[2:]
     square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
     cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
     return np.column_stack([square, cube])
-
-
-def nearest_to_powers(speeds: Array) -> tuple[float, ...]:
-    """Viscous and dry friction that are nearest to square and cube at speeds (N,), as `powers of speed` takes them."""
-    ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)])
-    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
-    return tuple(map(float, found.T.ravel()))
 
 
 def warmth(m: Moment, joint: int) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.laws import Law, nearest_to_powers
+from armscope.motion.library.laws import Law
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.sides import coulomb_width, sharp_width
 
@@ -91,9 +91,10 @@ class _Joint:
 
     @property
     def nearest(self) -> tuple[float, ...]:
-        """Viscous and dry friction nearest to powers of the speeds at which it moves."""
+        """Viscous and dry friction, where they are not stated, nearest to powers of the speeds at which it moves."""
         speeds = self.seen.speeds[self.number]
-        return nearest_to_powers(speeds[speeds > self.width])
+        dry, viscous = np.isnan(self.seen.arm.stated_background[self.number, 1:3])
+        return _nearest_to_powers(speeds[speeds > self.width], (viscous, dry))
 
     @property
     def both_ways(self) -> bool:
@@ -113,6 +114,22 @@ class _Joint:
         """A free curve between limits."""
         names = tuple((f"knot {k + 1}", self.torque) for k in range(knots))
         return self.cause(cause, driver, names, f"curve over {driver}", *limits, knots, is_curve=True, **more)
+
+
+def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ...]:
+    """Viscous and dry friction that are nearest to square and cube at some speeds, as `powers of speed` takes them.
+
+    Args:
+        speeds: (N,) rad/s.
+        fitted: whether viscous and dry friction are; of a stated one the powers take nothing off, or a curve alone
+            would be told as a curve and two departures from what is stated.
+
+    Returns:
+        Viscous and dry friction of the square, then of the cube.
+    """
+    ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)]) * np.array(fitted)
+    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
+    return tuple(map(float, found.T.ravel()))
 
 
 def _friction(at: _Joint) -> Iterator[PlacedCause]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from armscope.motion.library.clauses import Numbers, amount
 from armscope.robot.dynamics import MovingArm
+from armscope.robot.model import dh_halves
 from armscope.verdict.effects import Parameter
 
 _SAID = {"mx": "mass × x", "my": "mass × y", "mz": "mass × z"}
@@ -26,12 +27,14 @@ class Fitted:
         parameters: as fitted.
         arm: as stated.
         of_law: numbers of the law that it follows; none where it follows none.
+        place: where it is, as in "link 2" or "joint 3 from joint 2".
     """
 
     cure: str
     parameters: tuple[Parameter, ...]
     arm: MovingArm
     of_law: tuple[float, ...] = ()
+    place: str = ""
 
     @property
     def first(self) -> Parameter:
@@ -88,6 +91,22 @@ def lagging(fitted: Fitted) -> str:
     return f"{fitted.in_general}: {amount(fitted.first)} of torque."
 
 
+def link_shifted(fitted: Fitted) -> str:
+    """A link's encoder whose readings are of another time than its motor's."""
+    side = "earlier" if fitted.first.value > 0 else "later"
+    return f"Shift the link's position {amount(fitted.first)} {side}."
+
+
+def reduction(fitted: Fitted) -> str:
+    """A reduction by which the motor's position was divided."""
+    return f"{fitted.in_general}: multiply it by {1 / (1 + fitted.first.value):.6f}."
+
+
+def behind_its_motor(fitted: Fitted) -> str:
+    """A play, at whose end a link lies."""
+    return f"{fitted.in_general}: by {amount(fitted.first)}."
+
+
 def spring_between(fitted: Fitted) -> str:
     """A spring between motor and link."""
     return f"{fitted.in_general}: {amount(fitted.numbers['stiffness'])}."
@@ -105,6 +124,37 @@ def as_stated_and(fitted: Fitted) -> str:
     where = " in the last joint's frame (z is its axis; of standard D-H rows: before d, a, alpha)"
     where = where if len(numbers) > 1 else ""
     return f"{fitted.in_general}: as stated and {told}{where}."
+
+
+def with_its_centre(fitted: Fitted) -> str:
+    """A link's centre of mass: in the row's frame, as robot.yaml has it, which is not the joint's."""
+    numbers = fitted.numbers
+    by = np.array([numbers[name].value if name in numbers else 0.0 for name in _SAID])
+    dh, links, number = fitted.arm.description.dh, fitted.arm.description.links, int(fitted.place.split()[1]) - 1
+    if dh is None or links is None or links[number].mass_kg <= 0:
+        told = ", ".join(f"{_SAID[name]} {amount(value, sign=True)}" for name, value in numbers.items())
+        return f"{fitted.in_general}, in the joint's frame: as stated and {told}; corrected.urdf has it."
+    behind = dh_halves(dh.joints[number], dh.convention)[1]
+    moved = np.array(links[number].com_mm) + 1e3 * behind.rotation.T @ by / links[number].mass_kg
+    return f"{fitted.in_general}: set its com_mm to [{', '.join(f'{each:.1f}' for each in moved)}]."
+
+
+def with_its_inertia(fitted: Fitted) -> str:
+    """A link's inertia, about its centre of mass: one number on all three axes, or those that the motion tells."""
+    if len(fitted.parameters) == 1 and fitted.first.name == "inertia":
+        return f"{fitted.in_general}: xx, yy and zz as stated and {amount(fitted.first, sign=True)}, each."
+    told = ", ".join(f"{each.name} {amount(each, sign=True)}" for each in fitted.parameters)
+    return f"{fitted.in_general}: as stated and {told}, along the joint's axes; corrected.urdf has it."
+
+
+def as_often_as(fitted: Fitted) -> str:
+    """A body of the model that is missing, or there more than once: what is missing is not to be taken out again."""
+    low, high = fitted.first.interval
+    if high < -0.5:
+        return fitted.cure
+    if low > 0.5:
+        return f"Add it to the model once more: {amount(fitted.first)} times what it weighs comes on top."
+    return f"Weigh it and correct its mass: as stated, {amount(fitted.first, sign=True)} times itself."
 
 
 def gravity_vector(fitted: Fitted) -> str:

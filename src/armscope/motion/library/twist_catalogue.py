@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
-from armscope.motion.library import clauses, remedies
+from armscope.motion.library import clauses, remedies, remedies_of_laws
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
 from armscope.motion.library.laws import Law
 from armscope.motion.library.twist_constants import TWIST
@@ -40,10 +40,11 @@ JOINT_PLAY = Cause(
     DRIVE,
     "Gear, coupling or key have play: the link lies at the end to which its torque pushes it.",
     "Hold the motor, push the link gently to and fro by hand and read both encoders.",
-    "Take the play out of the drive, or let the link of the model lie at the end to which torque pushes it.",
+    "Take the play out of the drive, or let the link of the model lie behind its motor, against the motor's torque.",
     nonnegative=True,
     labels={"half": "half of the play"},
     clause=clauses.play_clause,
+    remedy=remedies.behind_its_motor,
 )
 GEAR_RATIO = Cause(
     "gear_ratio",
@@ -53,6 +54,7 @@ GEAR_RATIO = Cause(
     "Correct the reduction by which the motor's position is divided.",
     labels={"share": "link / motor − 1"},
     clause=clauses.ratio_clause,
+    remedy=remedies.reduction,
 )
 ENCODER_WAVE = Cause(
     "encoder_wave",
@@ -61,6 +63,7 @@ ENCODER_WAVE = Cause(
     "Turn the joint slowly and unloaded from end to end, either way, and read both encoders.",
     "Take the wave from the link's position, or centre the disc.",
     clause=clauses.wave_clause,
+    remedy=remedies_of_laws.waves,
 )
 ENCODER_LAG = Cause(
     "encoder_lag",
@@ -69,6 +72,7 @@ ENCODER_LAG = Cause(
     "Turn the joint at two constant speeds without load: the difference grows with the speed.",
     "Shift the link's position by the lag.",
     clause=clauses.lag_clause,
+    remedy=remedies.link_shifted,
 )
 NAMELESS = Cause(
     "unknown_twist",

@@ -178,16 +178,23 @@ class HeldOutErrors:
         without: with friction and rotors alone.
         anew: with causes found without that motion.
         named: with the causes that all of the motion names, their sizes found without it.
+        masses: share of a link's mass, and so on, by which those are off that have no name.
     """
 
     without: float
     anew: float
     named: float
+    masses: float = 0.0
 
     @property
     def worse(self) -> bool:
         """Whether causes that are found anew help nothing."""
         return self.anew >= self.without
+
+    @property
+    def only_unnamed(self) -> bool:
+        """Whether masses that are off without a name help: what else is free of every name helps hardly at all."""
+        return self.masses > 0 and self.named < TELLING.clearly_better * self.without
 
     @property
     def foretells_nothing(self) -> bool:
@@ -220,7 +227,8 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
         Both.
     """
     if not found:
-        return ("cannot tell", True) if left.present or errors.foretells_nothing else ("nothing missing", False)
+        missing = left.present or errors.foretells_nothing or errors.only_unnamed
+        return ("cannot tell", True) if missing else ("nothing missing", False)
     if errors.no_answer:
         return "cannot tell", True
     named = [cause for cause in found if not cause.nameless and not cause.minor]
@@ -242,6 +250,13 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
     """
     main = [cause for cause in found if not cause.minor]
     beyond = f"{capitalised(lasting_words(lasting[:1]))}. " if lasting else ""
+    if not found and errors.only_unnamed and not errors.foretells_nothing:
+        met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
+        return (
+            "Masses of the links are not as stated, in a way that no single name says better than all of them off a "
+            f"little: corrected.urdf has them as fitted. {beyond}{ON_HELD_OUT} the torque is met to {met} by them "
+            f"instead of {before}."
+        )
     if not found and lasting:
         return f"{beyond}No cause of the library explains it. {errors.words()}"
     if not found:

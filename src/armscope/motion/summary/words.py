@@ -43,10 +43,10 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
         arm: as stated.
 
     Returns:
-        A sentence or two; the cause's own words where its numbers are not determined, or those of a curve or a wave,
-        which model.yaml holds.
+        A sentence or two; the cause's own words where its numbers are not determined, or those of a free curve, which
+        model.yaml holds.
     """
     say, own = placed.cause.remedy, placed.cause.cure
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
     sure = say if determined(parameters) else None
-    return sure(Fitted(own, tuple(parameters), arm, of_law)) if sure else own
+    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location)) if sure else own

@@ -1,0 +1,96 @@
+"""Cures that add a law to the model, written out with all its numbers.
+
+A spring's rest, a gear's middle temperature, and the sign between two joints are numbers of the law, not of the fit:
+the numbers on a card alone do not say what to add. What is added is torque of the motor, positive along the motion that
+it drives; speeds, angles and accelerations are the joint's, SI.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from armscope.motion.library.clauses import amount
+from armscope.motion.library.remedies import Fitted
+from armscope.verdict.effects import Parameter
+
+
+def near_rest(fitted: Fitted) -> str:
+    """Friction that falls from its value near rest."""
+    extra, speed = fitted.numbers["stribeck"], fitted.numbers["speed"]
+    falls = f"exp(-(speed / ({speed.value:.4g} {speed.unit}))²)"
+    return f"Add a Stribeck term to the friction model: {amount(extra, sign=True)} × {falls} × sign of the speed."
+
+
+def curve_of_speed(fitted: Fitted) -> str:
+    """Square and cube of the speed, less the ordinary friction that is nearest to both: the joint's line has that."""
+    square, cube = fitted.numbers["square"], fitted.numbers["cube"]
+    nearest = fitted.of_law[1:]
+    viscous, dry = (-(square.value * a + cube.value * b) for a, b in zip(nearest[:2], nearest[2:], strict=True))
+    terms = ((square.value, "speed × |speed|"), (cube.value, "speed³"), (viscous, "speed"), (dry, "sign of the speed"))
+    told = " ".join(f"{_plain(size)} × {what}" for size, what in terms if size)
+    unit = square.unit.partition(" s")[0]
+    return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {unit}, SI."
+
+
+def with_warmth(fitted: Fitted) -> str:
+    """Friction that follows the temperature, from the middle of those that were recorded."""
+    per_kelvin, *constant = fitted.parameters
+    dry = per_kelvin.name.startswith("dry")
+    middle = fitted.of_law[1 if dry else 0]
+    told = " ".join([f"{amount(per_kelvin, sign=True)} × (temperature − {middle:.4g} °C)", *_signed(constant)])
+    what, follows = ("dry", "sign of the speed") if dry else ("viscous", "speed")
+    return f"{fitted.in_general}: {what} friction as stated and {told}, times the {follows}."
+
+
+def rubbing(fitted: Fitted) -> str:
+    """Friction between two joints."""
+    dry, viscous = fitted.parameters
+    law = f"{amount(dry, sign=True)} × sign of s {amount(viscous, sign=True)} × s"
+    return f"Let the friction of both joints follow s, {_between(fitted, 'speed')}, too: {_acting(fitted, law)}."
+
+
+def turning_along(fitted: Fitted) -> str:
+    """Inertia between two joints."""
+    law = f"{amount(fitted.first, sign=True)} × a"
+    told = _acting(fitted, f"{law}, where a is {_between(fitted, 'acceleration')}")
+    return f"{fitted.in_general}; or add inertia between them: {told}."
+
+
+def _between(fitted: Fitted, of: str) -> str:
+    """The sum or the difference that a law of two neighbours follows."""
+    second, first = fitted.place.split(" from ")
+    return f"the {of} of {first} {'plus' if fitted.of_law[0] > 0 else 'less'} that of {second}"
+
+
+def _acting(fitted: Fitted, law: str) -> str:
+    second, first = fitted.place.split(" from ")
+    there = "as much" if fitted.of_law[0] > 0 else "as much the other way"
+    return f"torque at {first}, and {there} at {second}, by {law}"
+
+
+def spring(fitted: Fitted) -> str:
+    """A spring, by the middle of the joint's range, or a counterweight."""
+    if "stiffness" not in fitted.numbers:
+        return waves(fitted)
+    stiffness, torque = fitted.parameters
+    (middle,) = fitted.of_law
+    unit = stiffness.unit.rpartition("/")[2]
+    away = f"(position {'+' if middle < 0 else '−'} {abs(middle):.4g} {unit})"
+    return f"{fitted.in_general}: {amount(stiffness, sign=True)} × {away} {amount(torque, sign=True)}."
+
+
+def waves(fitted: Fitted) -> str:
+    """Torque that repeats over the turn."""
+    (count,) = fitted.of_law
+    turned = "angle" if count == 1 else f"{count:.0f} × angle"
+    sine, cosine = (amount(fitted.numbers[name], sign=True) for name in ("sine", "cosine"))
+    return f"{fitted.in_general}: {sine} × sin({turned}) {cosine} × cos({turned})."
+
+
+def _signed(parameters: Sequence[Parameter]) -> list[str]:
+    return [amount(each, sign=True) for each in parameters]
+
+
+def _plain(value: float) -> str:
+    """Four digits with a sign: what is made of several numbers has no interval of its own."""
+    return f"{'−' if value < 0 else '+'}{abs(value):.4g}"

@@ -1,0 +1,137 @@
+"""Cures that add a law to the model, executed as printed: the torque that was missing is gone on another path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.library import remedies_of_laws
+from armscope.motion.library.catalogue import cause_named
+from tests.motion.cured import JOINT, STATED, Motion, Torque, as_it_is, at_joint, diagnosed, left, told
+
+SEEDS = (11, 14)
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is planted, under which name at which place, and what a reader adds who has read the cure."""
+
+    name: str
+    place: str
+    planted: Torque
+    read: Callable[[str], Torque]
+    warm: bool = False
+
+
+def near_rest(cure: str) -> Torque:
+    height, speed, *_ = told(cure, "model: ")
+    assert "× exp(-(speed / (" in cure
+    assert cure.endswith("× sign of the speed.")
+    return at_joint(lambda q, v, a, T: height * np.exp(-((v / speed) ** 2)) * np.sign(v))
+
+
+def curve(cure: str) -> Torque:
+    assert "× speed × |speed| " in cure
+    square, cube = told(cure.replace("speed³", "cube"), "friction ")[:2]
+    return at_joint(lambda q, v, a, T: square * v * np.abs(v) + cube * v**3)
+
+
+def with_warmth(cure: str) -> Torque:
+    per_kelvin, beside, more = told(cure, "stated and ")[:3]
+    assert "× (temperature −" in cure
+    if "times the sign of the speed" in cure:
+        return at_joint(lambda q, v, a, T: (per_kelvin * (T + beside) + more) * np.sign(v))
+    return at_joint(lambda q, v, a, T: (per_kelvin * (T + beside) + more) * v)
+
+
+def between(of: str, law: Callable[[list[float], Array], Array]) -> Callable[[str], Torque]:
+    """Torque on joints 2 and 3 by the sum or the difference of what they do, as the sentence says."""
+
+    def read(cure: str) -> Torque:
+        alike = "plus that of joint 3" in cure
+        assert alike or "less that of joint 3" in cure
+        other = 1 if alike else -1
+        assert ("as much the other way at joint 3" in cure) is not alike
+        numbers = told(cure, "at joint 3, by ")
+
+        def more(motion: Motion, torque: Array) -> Array:
+            found, values = torque.copy(), motion.dq if of == "speed" else motion.ddq
+            added = law(numbers, values[:, 1] + other * values[:, 2])
+            found[:, 1] += added
+            found[:, 2] += other * added
+            return found
+
+        return more
+
+    return read
+
+
+def rubbing(sign: int) -> Torque:
+    def more(motion: Motion, torque: Array) -> Array:
+        found, speed = torque.copy(), motion.dq[:, 1] + sign * motion.dq[:, 2]
+        found[:, [1, 2]] += ((1.5 * np.sign(speed) + speed)[:, None]) * [1, sign]
+        return found
+
+    return more
+
+
+def turning(sign: int) -> Torque:
+    def more(motion: Motion, torque: Array) -> Array:
+        found, faster = torque.copy(), motion.ddq[:, 1] + sign * motion.ddq[:, 2]
+        found[:, [1, 2]] += 0.15 * faster[:, None] * [1, sign]
+        return found
+
+    return more
+
+
+def spring(cure: str) -> Torque:
+    stiffness, beside, torque = told(cure, "model: ")
+    assert "× (position" in cure
+    return at_joint(lambda q, v, a, T: stiffness * (q + beside) + torque)
+
+
+def waves(cure: str) -> Torque:
+    numbers = told(cure, "model: ")
+    if "sin(angle)" in cure:
+        (sine, cosine), count = numbers, 1.0
+    else:
+        sine, count, cosine, _ = numbers
+    return at_joint(lambda q, v, a, T: sine * np.sin(count * q) + cosine * np.cos(count * q))
+
+
+RUBS = between("speed", lambda n, s: n[0] * np.sign(s) + n[1] * s)
+TURNS = between("acceleration", lambda n, a: n[0] * a)
+AT, FROM = f"joint {JOINT + 1}", "joint 3 from joint 2"
+CASES = {
+    "near rest": Case(
+        "stribeck_friction", AT, at_joint(lambda q, v, a, T: 3 * np.exp(-((v / 0.15) ** 2)) * np.sign(v)), near_rest
+    ),
+    "curve of speed": Case("viscous_curve", AT, at_joint(lambda q, v, a, T: 2.0 * v * np.abs(v)), curve),
+    "warm": Case("thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * v), with_warmth, True),
+    "warm and dry": Case(
+        "thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * np.sign(v)), with_warmth, True
+    ),
+    "rubs with the sum": Case("coupled_friction", FROM, rubbing(1), RUBS),
+    "rubs with the difference": Case("coupled_friction", FROM, rubbing(-1), RUBS),
+    "turns with the sum": Case("coupled_inertia", FROM, turning(1), TURNS),
+    "turns with the difference": Case("coupled_inertia", FROM, turning(-1), TURNS),
+    "spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 5 * (q - 0.4)), spring),
+    "counterweight": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 6 * np.sin(q + 0.5)), waves),
+    "ripple": Case("torque_ripple", AT, at_joint(lambda q, v, a, T: 2 * np.sin(9 * q + 0.5)), waves),
+}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("kind", [*CASES])
+def test_who_adds_what_the_card_says_has_the_torque(kind: str, seed: int) -> None:
+    case = CASES[kind]
+    (cause,) = diagnosed(STATED, case.planted, seed, case.warm)
+    assert (cause.effect, cause.location) == (case.name, case.place)
+    known = cause_named(cause.effect)
+    assert known is not None
+    assert getattr(known.remedy, "__module__", "") == remedies_of_laws.__name__
+    assert left((STATED, case.planted), (STATED, case.read(cause.cure), as_it_is), seed) < 0.03

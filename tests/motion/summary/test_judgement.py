@@ -1,0 +1,37 @@
+"""What is said where nothing has a name."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from armscope.motion.pipeline import diagnose_motion
+from armscope.motion.summary.judgement import HeldOutErrors, answer_of, headline
+from armscope.motion.verdict import UnexplainedTorque
+from tests.motion.moving import ROBOT, moved, robot
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_links_that_are_all_off_a_little_are_not_nothing_missing(seed: int) -> None:
+    """No link stands out, so none has a name; but friction and rotors do not say the torque."""
+    links: list[dict[str, Any]] = ROBOT["links"]  # type: ignore[assignment]
+    off = [(0.96, (6, -8, 5)), (1.05, (12, 15, -9)), (0.97, (-14, 6, 11))]
+    true = [
+        {**link, "mass_kg": share * link["mass_kg"], "com_mm": [a + b for a, b in zip(link["com_mm"], by, strict=True)]}
+        for link, (share, by) in zip(links, off, strict=True)
+    ]
+    verdict = diagnose_motion(robot(), moved(robot(links=true), seed, noise=0.005)).verdict
+    assert not verdict.effects
+    assert (verdict.answer, verdict.mismatch) == ("cannot tell", True)
+    assert verdict.headline.startswith("Masses of the links are not as stated")
+    assert verdict.waterfall[1].held_out < 0.8 * verdict.waterfall[0].held_out
+
+
+def test_masses_that_help_hardly_leave_nothing_missing() -> None:
+    errors = HeldOutErrors(0.02, 0.019, 0.019, masses=0.003)
+    assert answer_of([], UnexplainedTorque(False), errors) == ("nothing missing", False)
+    assert headline([], errors).startswith("Nothing is missing")
+    much = replace(errors, named=0.01)
+    assert answer_of([], UnexplainedTorque(False), much) == ("cannot tell", True)
