@@ -13,7 +13,7 @@ from armscope.physics.clause import Told
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
 from armscope.physics.elastic import drive, loaded_joints
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
@@ -67,6 +67,29 @@ def held(curve: Placed, recordings: Recordings) -> Placed:
 
     terms = tuple(replace(t, products=tuple(bounded(product) for product in t.products)) for t in curve.terms)
     return replace(curve, terms=terms)
+
+
+def about_its_mean(curve: Part, scene: Scene) -> tuple[Part, float]:
+    """A free curve of a joint's own angle about its mean over the rows, and that mean, rad.
+
+    A constant is the joint's zero, whoever holds it: geometry and base take it up, and where poses hardly tell it from
+    them, it may be many times as large as all that follows the angle.
+
+    Args:
+        curve: a fitted curve.
+        scene: the rows.
+
+    Returns:
+        The curve without its mean, and the mean; any other part as it is, and 0.
+    """
+    placed = curve.placed
+    constant = [n for n, each in enumerate(placed.terms) if [product.driver for product in each.products] == [ONE]]
+    if placed.parametrisation != "curve" or placed.variant != "angle" or len(constant) != 1:
+        return curve, 0.0
+    (turned,) = scene.amounts([curve]).values()
+    mean, values = float(turned.mean()), curve.values.copy()
+    values[constant[0]] -= mean
+    return replace(curve, values=values), mean
 
 
 def _range(values: Array) -> tuple[float, float]:

@@ -57,7 +57,7 @@ def _constant(name: str, location: str, twist: Array) -> Term:
 
 def _place_offsets(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
-        yield _offset(JOINT_OFFSET, j)
+        yield joint_zero(JOINT_OFFSET, j)
 
 
 JOINT_OFFSET = Effect(
@@ -130,14 +130,15 @@ def background(arm: Arm) -> list[Placed]:
     The angles are the motors' zeros, which move the arm in the same ways as the rows' theta, so that a zero that stands
     out is one of the background's own columns.
     """
-    placed = [_offset(BACKGROUND, j) for j in range(1, arm.n_motors + 1)]
+    placed = [joint_zero(BACKGROUND, j) for j in range(1, arm.n_motors + 1)]
     for j in range(1, arm.n_joints + 1):
         terms = tuple(row_terms(arm, j).values())
         placed.append(Placed(BACKGROUND, f"link {j}", terms, (1.0,) * len(terms), "constant"))
     return placed
 
 
-def _offset(effect: Effect, j: int) -> Placed:
+def joint_zero(effect: Effect, j: int) -> Placed:
+    """The zero of motor ``j``, as named for itself or as one of the small errors of geometry."""
     offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
     return Placed(effect, f"joint {j}", (offset,), (1.0,), "constant")
 

@@ -8,9 +8,14 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary import rows
 from armscope.measurement.constants import WEIGHTS
-from armscope.physics.model import predict
+from armscope.physics.effect import Part
+from armscope.physics.freeform import UNKNOWN
+from armscope.physics.geometric import background as geometry_everywhere
+from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.wander import is_of_rows
+from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Diagnosis
 from tests.diagnosis.planted import one_run, recorded
 from tests.physics.scenes import arm_named
@@ -53,3 +58,35 @@ def test_the_model_to_predict_with_holds_nothing_of_the_order_of_these_rows(verd
     assert not any(is_of_rows(part.placed) for part in (*verdict.model.background, *verdict.model.parts))
     there = replace(verdict.recordings, number=verdict.recordings.number + 1000)
     np.testing.assert_allclose(predict(verdict.model, there), predict(verdict.model, verdict.recordings))
+
+
+def _with_a_curve(background: bool) -> tuple[FittedModel, Recordings]:
+    """A curve of joint 2 whose constant is far larger than its waves, beside small errors of geometry or none."""
+    arm = arm_named("six-axis")
+    table = one_run(arm, 80, 3)
+    curve = next(p for p in UNKNOWN.place(arm, table) if (p.location, p.variant) == ("joint 2", "angle"))
+    values = np.random.default_rng(4).normal(0, 2e-4, len(curve.terms))
+    values[0] = 6e-3
+    link = next(p for p in geometry_everywhere(arm) if p.location == "link 3")
+    small = (Part(link, np.full(len(link.terms), 1e-4)),) if background else ()
+    model = FittedModel(arm, {run: Base(np.eye(3), np.zeros(3)) for run in np.unique(table.run)})
+    return replace(model, parts=(Part(curve, values),), background=small), table
+
+
+def test_the_mean_of_a_curve_is_the_joints_zero_and_predicts_the_same() -> None:
+    model, table = _with_a_curve(background=True)
+    told = rows._to_predict(model, table)
+    np.testing.assert_allclose(predict(told, table), predict(model, table), atol=1e-12)
+    (turned,) = model.scene(table).amounts(model.parts).values()
+    (shape,) = told.scene(table).amounts(told.parts).values()
+    np.testing.assert_allclose(shape, turned - turned.mean(), atol=1e-15)
+    zero = told.background[-1]
+    assert (zero.placed.family, zero.placed.location) == ("geometric", "joint 2")
+    assert zero.values == pytest.approx([turned.mean()])
+
+
+def test_without_small_errors_of_geometry_a_curve_keeps_its_mean() -> None:
+    model, table = _with_a_curve(background=False)
+    told = rows._to_predict(model, table)
+    assert not told.background
+    np.testing.assert_array_equal(told.parts[0].values, model.parts[0].values)

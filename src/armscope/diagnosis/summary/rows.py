@@ -7,12 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.refit import Refit
 from armscope.measurement.constants import WEIGHTS
-from armscope.physics.freeform import held
+from armscope.physics.backgrounds import GEOMETRIC
+from armscope.physics.effect import Part
+from armscope.physics.freeform import about_its_mean, held
+from armscope.physics.geometric import BACKGROUND, joint_zero
 from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
@@ -40,7 +44,7 @@ def told_of_rows(state: DiagnosisState) -> dict[str, Any]:
         "atlas": atlas(fit.layout, fit.model, recordings, fit.weights.of_reference),
         "residuals": _residuals(state),
         "suspects": _suspects(state),
-        "model": _held(fit.model, recordings),
+        "model": _to_predict(fit.model, recordings),
         "orientations": _orientations(state),
     }
 
@@ -93,11 +97,26 @@ def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
 
 
-def _held(model: FittedModel, recordings: Recordings) -> FittedModel:
+def _to_predict(model: FittedModel, recordings: Recordings) -> FittedModel:
     """The model to predict with: its free curves go no farther than they were learned.
 
     A wander in the order of these rows says nothing of other rows.
     """
     background = tuple(p for p in model.background if not is_of_rows(p.placed))
+    model = _zeros_with_geometry(replace(model, background=background), recordings)
     parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
-    return replace(model, parts=parts, background=background)
+    return replace(model, parts=parts)
+
+
+def _zeros_with_geometry(model: FittedModel, recordings: Recordings) -> FittedModel:
+    """The same model, in which the mean of a joint's curve is a small error of geometry, where these are in it."""
+    if not any(part.placed.family == GEOMETRIC for part in model.background):
+        return model
+    scene, parts, zeros = model.scene(recordings), [], []
+    for part in model.parts:
+        shape, mean = about_its_mean(part, scene)
+        parts.append(shape)
+        if mean:
+            zero = joint_zero(BACKGROUND, Location.of(part.placed.location).number)
+            zeros.append(Part(zero, np.array([mean])))
+    return replace(model, parts=tuple(parts), background=(*model.background, *zeros))
