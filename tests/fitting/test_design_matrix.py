@@ -68,6 +68,21 @@ def test_products_with_other_columns(seen: Seen) -> None:
     np.testing.assert_allclose(products, expected, atol=1e-12 * np.abs(expected).max())
 
 
+def test_products_within_blocks_of_one_direction_and_what_is_kept_of_it(seen: Seen) -> None:
+    posture, _ = seen
+    waves = tuple(term(f"{k} {n}", "", (motor(2), Driver(k, (2, n)))) for n in range(1, 20) for k in ("sine", "cosine"))
+    order, X = grouped_columns(waves), written_out(posture, waves)
+    assert order.is_one_group
+    assert not grouped_columns((*waves, *seen[1])).is_one_group
+    stack = structured_design(posture, order)
+    expected = np.stack([X[at : at + 2] @ X[at : at + 2].T for at in range(0, len(waves), 2)])
+    np.testing.assert_allclose(stack.within_blocks(19), expected, atol=1e-12 * np.abs(expected).max())
+    assert structured_design(posture, order).drivers[0] is stack.drivers[0], "the waves are those of every posture"
+    loads = tuple(term(f"{n}", "", (motor(2), Driver("gravity torque", (2,))), si=n) for n in range(1, 20))
+    kept = [structured_design(posture, grouped_columns(loads)).drivers[0] for _ in range(2)]
+    assert kept[0] is not kept[1]
+
+
 def test_some_rows_and_their_rest_make_all_rows(seen: Seen) -> None:
     posture, terms = seen
     stack = structured_design(posture, grouped_columns(terms))

@@ -17,12 +17,23 @@ from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.effect import Term
 from armscope.physics.model import FittedModel
 
-Blocks = Sequence[Sequence[Term]]
-"""m blocks of c terms."""
+
+@dataclass(frozen=True, eq=False)
+class TermBlocks:
+    """m blocks of c terms, all in the order in which their columns are multiplied: made once where they come again."""
+
+    m: int
+    c: int
+    order: ColumnOrder
+
+    @classmethod
+    def of(cls, blocks: Sequence[Sequence[Term]]) -> TermBlocks:
+        """Blocks of equally many terms."""
+        return cls(len(blocks), len(blocks[0]), grouped_columns([term for block in blocks for term in block]))
 
 
 def column_blocks(
-    groups: Sequence[Blocks],
+    groups: Sequence[TermBlocks],
     layout: ParameterLayout,
     inside: Indices,
     model: FittedModel,
@@ -32,7 +43,7 @@ def column_blocks(
     """Sums over rows for blocks of terms against some of a layout's columns, mm per SI unit.
 
     Args:
-        groups: each of some blocks of equally many terms; blocks are multiplied with those of their own group alone.
+        groups: blocks are multiplied with those of their own group alone.
         layout: of the model's columns.
         inside: (k,) which of them.
         model: where columns are taken; the response is that before any effect, also of those that are not ``inside``.
@@ -42,7 +53,7 @@ def column_blocks(
     Returns:
         Of each group: sums of its blocks with themselves, with the columns, and with the response.
     """
-    sums = [_Sums.of(blocks, len(inside)) for blocks in groups]
+    sums = [_Sums.of(terms, len(inside)) for terms in groups]
     model_terms = grouped_columns([layout.terms[i] for i in inside])
     values, active, present = active_effects(layout, model)
     column_order = grouped_columns(present)
@@ -54,36 +65,39 @@ def column_blocks(
         )
         X = structured_design(seen, model_terms)
         for each in sums:
-            each.add(structured_design(seen, each.order), X, y)
+            each.add(structured_design(seen, each.terms.order), X, y)
     return [each.blocks(model_terms.back) for each in sums]
 
 
 @dataclass(eq=False)
 class _Sums:
-    """Sums over some rows for m blocks of c terms, all in the order in which their columns are multiplied."""
+    """Sums over some rows for blocks of terms; of those that move in one direction, only what is within each block."""
 
-    shape: tuple[int, int]
-    order: ColumnOrder
+    terms: TermBlocks
     own: Array
     cross: Array
     b: Array
 
     @classmethod
-    def of(cls, blocks: Blocks, k: int) -> _Sums:
-        m, c = len(blocks), len(blocks[0])
-        order = grouped_columns([term for block in blocks for term in block])
-        return cls((m, c), order, np.zeros((m * c, m * c)), np.zeros((k, m * c)), np.zeros(m * c))
+    def of(cls, terms: TermBlocks, k: int) -> _Sums:
+        m, c = terms.m, terms.c
+        own = np.zeros((m, c, c) if terms.order.is_one_group else (m * c, m * c))
+        return cls(terms, own, np.zeros((k, m * c)), np.zeros(m * c))
 
     def add(self, E: StructuredDesign, X: StructuredDesign, y: Array) -> None:
-        E.add_products(self.own)
+        if self.terms.order.is_one_group:
+            self.own += E.within_blocks(self.terms.m)
+        else:
+            E.add_products(self.own)
         self.cross += X.products(E)
         self.b += E.rmatvec(y)
 
     def blocks(self, model_back: Indices) -> ColumnBlocks:
-        (m, c), back = self.shape, self.order.back
-        own = self.order.whole(self.own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
-        cross = self.cross[np.ix_(model_back, back)].reshape(-1, m, c)
-        return ColumnBlocks(own, np.moveaxis(cross, 1, 0), self.b[back].reshape(m, c))
+        m, c, order, own = self.terms.m, self.terms.c, self.terms.order, self.own
+        if not order.is_one_group:
+            own = order.whole(own).reshape(m, c, m, c)[np.arange(m), :, np.arange(m), :]
+        cross = self.cross[np.ix_(model_back, order.back)].reshape(-1, m, c)
+        return ColumnBlocks(own, np.moveaxis(cross, 1, 0), self.b[order.back].reshape(m, c))
 
 
 def active_effects(layout: ParameterLayout, model: FittedModel) -> tuple[Array, Indices, list[Term]]:

@@ -8,6 +8,7 @@ sums over rows then cost one number a row where the columns themselves have thre
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Sequence
@@ -19,8 +20,9 @@ from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
 from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
+from armscope.physics.drivers import follows
 from armscope.physics.effect import Direction, Driver, Term
-from armscope.physics.scene import Posture
+from armscope.physics.scene import Posture, Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +33,22 @@ class SharedDirectionGroup:
     members: Indices
     drivers: tuple[Driver, ...]
     factors: Array
+
+    @functools.cached_property
+    def follows_load(self) -> bool:
+        """Whether a driver does, so that values hold for one posture alone."""
+        return any(follows("load", driver) for driver in self.drivers)
+
+    def values(self, scene: Scene) -> Array:
+        """(k, n) drivers times factors; kept where they are those of every posture."""
+
+        def computed() -> Array:
+            return np.array([scene.driver(driver) for driver in self.drivers]) * self.factors
+
+        if self.follows_load:
+            return computed()
+        kept: Array = scene.rigid.remember(self, computed)
+        return kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +69,11 @@ class ColumnOrder:
     def back(self) -> Indices:
         """(p,) where each term stands in ``order``."""
         return np.argsort(self.order)
+
+    @property
+    def is_one_group(self) -> bool:
+        """Whether all terms move in one direction, so that they stand in their own order."""
+        return not self.others and len(self.groups) == 1
 
     @property
     def slices(self) -> list[slice]:
@@ -147,6 +170,12 @@ class StructuredDesign:
                 product = self.drivers[a] * _across(self.sensitivities[a], self.sensitivities[b])
                 total[at, rest[b]] += product @ self.drivers[b].T
 
+    def within_blocks(self, m: int) -> Array:
+        """(m, c, c) products within each of m blocks of columns that are one group."""
+        weighted = self.drivers[0] * np.sqrt(_across(self.sensitivities[0], self.sensitivities[0]))
+        blocks = weighted.reshape(m, -1, weighted.shape[1])
+        return np.asarray(blocks @ blocks.transpose(0, 2, 1))
+
     def products(self, other: StructuredDesign) -> Array:
         """(p, q) products of the columns with those of another order on the same rows."""
         total = np.empty((len(self.column_order.order), len(other.column_order.order)))
@@ -176,10 +205,7 @@ def _across(sensitivity: Array, other: Array) -> Array:
 def structured_design(posture: WhitenedPosture, column_order: ColumnOrder) -> StructuredDesign:
     """Columns in a given order at a posture's rows, as all channels see them."""
     sensitivities = tuple(1e3 * posture.sensitivity(group.direction).T for group in column_order.groups)
-    drivers = tuple(
-        np.array([posture.scene.driver(driver) for driver in group.drivers]) * group.factors
-        for group in column_order.groups
-    )
+    drivers = tuple(group.values(posture.scene) for group in column_order.groups)
     return StructuredDesign(column_order, component_rows(posture, column_order.others), sensitivities, drivers)
 
 

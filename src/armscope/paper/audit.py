@@ -20,7 +20,6 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from scipy.optimize import Bounds, differential_evolution
-from scipy.stats import qmc
 
 from armscope.core.types import Array
 from armscope.paper.printed import (
@@ -109,6 +108,8 @@ class _Family:
 
 def _family(trajectory: str, scope: AuditScope) -> _Family:
     if trajectory == TEST_TRAJECTORIES[0]:
+        from scipy.stats import qmc  # takes half a second: seldom needed
+
         low = np.array([*scope.low, *scope.low, *[-0.5] * 3])
         high = np.array([*scope.high, *scope.high, *[0.5] * 3])
         unit = qmc.Sobol(9, rng=np.random.default_rng(scope.seed)).random(scope.corner_samples)

@@ -11,6 +11,7 @@ import pandas as pd
 from armscope.core.config import Point
 from armscope.core.inputs import InputError
 from armscope.paper.study import Sizes, StudyPlan
+from armscope.paper.virtual import PlannedPaths
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]
@@ -108,16 +109,29 @@ def check_reach(plans: Sequence[tuple[str, StudyPlan]]) -> pd.DataFrame:
         InputError: names every scenario with a point that its arm can't reach, and why.
     """
     rows, missed = [], []
+    followed: dict[tuple[int, PlannedPaths], int | InputError] = {}  # most scenarios change neither arm nor paths
     for name, plan in plans:
-        try:
-            rows.append({"scenario": name, "arm": plan.arm.name, "points": len(plan.follow())})
-        except InputError as error:
-            missed.append((name, error))
+        asked = id(plan.arm), plan.paths
+        if asked not in followed:
+            followed[asked] = _points_followed(plan)
+        found = followed[asked]
+        if isinstance(found, InputError):
+            missed.append((name, found))
+        else:
+            rows.append({"scenario": name, "arm": plan.arm.name, "points": found})
     if missed:
         name, first = missed[0]
         rest = f" (as in {len(missed) - 1} more scenarios)" if len(missed) > 1 else ""
         raise InputError(f"{name}{rest}: {first.file}", first.place, first.found, first.rule, first.cure)
     return pd.DataFrame(rows)
+
+
+def _points_followed(plan: StudyPlan) -> int | InputError:
+    """How many points of its test paths a plan's arm follows, or why it can't."""
+    try:
+        return len(plan.follow())
+    except InputError as error:
+        return error
 
 
 def _arm(arm: Arm) -> Change:

@@ -50,6 +50,11 @@ class Scene(LoadedArm):
         values: Array = self.remember(driver, lambda: drivers.driver_values(self, driver))
         return values
 
+    @property
+    def rigid(self) -> Scene:
+        """The same rows where nothing gives way, at which what follows no load is kept."""
+        return self if self._rigid is None else self._rigid
+
     def _bent(self, frames: Chain) -> Scene:
         """The same rows with loads taken at other frames; what does not depend on them is kept here."""
         bent = copy(self)

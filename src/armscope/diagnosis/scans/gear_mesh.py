@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, few_rows, scanned_rows, scores_given
-from armscope.fitting.column_blocks import column_blocks
+from armscope.fitting.column_blocks import TermBlocks, column_blocks
 from armscope.inference.evidence import Hypothesis
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
@@ -30,13 +31,19 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = ME
     rows = scanned_rows(count)
     columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
     table = context.few or few_rows(context.recordings)
-    lines = [[mesh(j, n) for n in MESH_COUNTS if n <= most] for j in moving_joints(context.recordings)]
-    # joint by joint: the waves' products with each other grow with the square of their number
-    terms = [[p.terms for p in of_joint] for of_joint in lines]
+    lines = [_lines(j, most) for j in moving_joints(context.recordings)]
+    terms = [of_joint for _, of_joint in lines]
     every = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
-    for placed, sums in zip(lines, every, strict=True):
+    for (placed, _), sums in zip(lines, every, strict=True):
         for hypothesis in given:
             scores = scores_given(context.problem, hypothesis, sums, columns)
             for at in np.argsort(-scores)[: SCANS.lines_kept]:
                 if scores[at] > SCANS.worth_a_look:
                     yield placed[at]
+
+
+@functools.lru_cache(maxsize=16)
+def _lines(j: int, most: int) -> tuple[tuple[Placed, ...], TermBlocks]:
+    """The meshes of motor j up to so many periods per turn: the same at every scan, as is their order."""
+    placed = tuple(mesh(j, n) for n in MESH_COUNTS if n <= most)
+    return placed, TermBlocks.of([line.terms for line in placed])
