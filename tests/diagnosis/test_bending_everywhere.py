@@ -18,6 +18,7 @@ from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import forward_kinematics
+from tests.seeds import seeds
 
 from ..physics.scenes import arm_named
 from .planted import Wanted, one_run, recorded
@@ -65,7 +66,7 @@ def measured(truth: FittedModel, seed: int) -> Recordings:
     return replace(table, positions=predict(truth, table) + 1e-3 * NOISE_MM * noise)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) -> None:
     """Before they were allowed for, the base, D-H lengths and gears had names for them."""
     truth = with_uneven_bearings(seed)
@@ -102,7 +103,7 @@ def test_what_bends_far_more_than_the_rest_is_named(softer: tuple[str, str]) -> 
     assert softer in {(found.effect, found.location), *((a.effect, a.location) for a in found.alternatives)}
 
 
-@pytest.mark.parametrize("seed", [3, 4, 7])
+@pytest.mark.parametrize("seed", seeds(3, 4, 7))
 def test_a_base_softer_than_what_bends_is_named_with_what_lies_beside_it_alone(seed: int) -> None:
     """The background has the base about two axes, which took the name's place, or a gear's with it."""
     arm, base = arm_named("six-axis"), ("base_compliance", "base")

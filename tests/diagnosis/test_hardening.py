@@ -18,6 +18,7 @@ from armscope.robot.kinematics import joint_jacobian
 from armscope.verdict.contributions import contributions
 from armscope.verdict.schema import Verdict
 from armscope.verdict.work_order import work_order
+from tests.seeds import seeds
 
 from .planted import planted
 
@@ -44,7 +45,7 @@ def wound(
     return arm, replace(table, positions=table.positions + moved)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_drives_that_harden_are_not_told_as_play(seed: int) -> None:
     """Most of it at the tool is the shoulder's, which may be named: as what gives way."""
     verdict = diagnose(*wound("seven-axis", dict.fromkeys(range(2, 7), 4e-5), seed), QUICK)
@@ -54,7 +55,7 @@ def test_drives_that_harden_are_not_told_as_play(seed: int) -> None:
     assert verdict.residual_after_mm < 1.1 * NOISE_MM
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 @pytest.mark.parametrize("turn", [0.0, 4e-5])
 def test_play_is_named_beside_drives_that_harden(turn: float, seed: int) -> None:
     verdict = diagnose(*wound("seven-axis", dict.fromkeys(range(3, 7), turn), seed, PLAY), QUICK)
@@ -63,7 +64,7 @@ def test_play_is_named_beside_drives_that_harden(turn: float, seed: int) -> None
     assert abs(gap.value - 4e-4) < 3 * gap.stderr
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(seed: int) -> None:
     verdict = diagnose(*wound("seven-axis", {4: 2e-4}, seed), QUICK)
     assert {location for _, location in names(verdict)} == {"joint 4"}
@@ -83,7 +84,7 @@ def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(see
     assert "do not determine" not in rule
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_drive_that_gives_way_and_hardens_has_one_name(seed: int) -> None:
     """Its soft start is in the background then, and its compliance is as if there were none."""
     gives = {("joint_compliance", "joint 4"): [5e-6]}

@@ -17,6 +17,7 @@ from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, load_arm
 from armscope.robot.arm import build_arm
 from armscope.verdict.schema import Verdict
+from tests.seeds import seeds
 
 from ..physics.scenes import arm_named
 from .planted import Wanted, joined, one_run, recorded
@@ -52,7 +53,7 @@ def test_a_tool_that_is_turned_anyhow_on_the_flange_is_found_from_nothing() -> N
     assert np.abs(left["orientation"]).max() < 1e-7
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3, 4))
 def test_a_true_arm_with_noisy_orientations_misses_nothing(seed: int) -> None:
     verdict = diagnose(*oriented("six-axis", {}, seed=10 * seed), QUICK)
     assert verdict.answer == "nothing missing"

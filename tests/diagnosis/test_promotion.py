@@ -15,6 +15,7 @@ from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, chain, load_arm
 from armscope.robot.kinematics import joint_jacobian
 from armscope.verdict.schema import Verdict
+from tests.seeds import seeds
 
 from .planted import planted
 
@@ -38,7 +39,7 @@ def elastic_everywhere(seed: int) -> tuple[Arm, Recordings, dict[str, float]]:
     return *planted("six-axis", wanted, 250, 0.05, seed), drives
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", seeds(1, 2))
 def test_drives_are_named_in_an_arm_that_is_elastic_everywhere(seed: int) -> None:
     arm, table, true = elastic_everywhere(seed)
     effects = diagnose(arm, table, QUICK).effects

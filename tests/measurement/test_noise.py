@@ -12,6 +12,7 @@ from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import distances, growth, independence_weights, poses
 from armscope.recordings import Recordings
+from tests.seeds import seeds
 
 from ..diagnosis.planted import one_run, recorded
 from ..physics.scenes import arm_named
@@ -98,7 +99,7 @@ def test_the_size_of_the_growth_is_right() -> None:
     np.testing.assert_allclose(found.at(np.array([2.0, 6.0])), np.hypot(0.02, 0.015 * np.array([2.0, 6.0])), rtol=0.04)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", seeds(*range(5)))
 def test_constant_noise_stays_silent(seed: int) -> None:
     rng = np.random.default_rng(seed)
     away = rng.uniform(1.5, 7.0, 2000)

@@ -16,9 +16,10 @@ from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.samples.timing import mended
 from armscope.recordings.motions import as_motions, read_motions
 from tests.motion.moving import moved, robot, table
+from tests.seeds import seeds
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_runs_of_which_one_is_sampled_four_times_more_slowly_name_nothing(seed: int) -> None:
     """A joint that turns back passes all low speeds between two of its samples: no friction near rest is told there."""
     motion = table(robot(), seed, seconds=10.0)

@@ -28,6 +28,7 @@ from tests.diagnosis.test_better_placed import (
     with_drive_named,
 )
 from tests.physics.scenes import arm_named
+from tests.seeds import seeds
 
 ROWS = 150
 
@@ -45,7 +46,7 @@ def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: 
     assert (("base_drift", "base") in {(a.effect, a.location) for a in found.alternatives}) == in_step
 
 
-@pytest.mark.parametrize("seed", [6, 7])
+@pytest.mark.parametrize("seed", seeds(6, 7))
 def test_what_got_its_name_out_of_a_background_has_rivals_too(seed: int) -> None:
     """An upright first bearing and the second drive turn a seven-axis arm alike where loads are alike."""
     rng = np.random.default_rng(seed)

@@ -11,6 +11,7 @@ from armscope.diagnosis import Settings, diagnose, judgement
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from tests.diagnosis.planted import one_run, planted, recorded
 from tests.physics.scenes import arm_named
+from tests.seeds import seeds
 
 TRUE = {"joint 2": 5e-6, "joint 4": 5e-6}
 """rad/(N m)."""
@@ -28,7 +29,7 @@ def found_where_only_two_joints_move(seed: int) -> list[FoundEffect]:
     return list(diagnose(arm, recorded(arm, table, springs, 0.03, seed), Settings(resamples=0)).effects)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_compliance_that_another_could_be_is_not_claimed_for_one_joint(seed: int) -> None:
     for effect in found_where_only_two_joints_move(seed):
         beside = {a.location for a in effect.alternatives if a.effect == "joint_compliance" and not a.excluded}

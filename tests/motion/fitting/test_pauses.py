@@ -18,6 +18,7 @@ from armscope.motion.samples.preparation import Signals, preparation
 from armscope.motion.samples.timing import stretches
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, robot
+from tests.seeds import seeds
 
 RATE, PAUSES_S = 200.0, (0.08, 0.12, 0.16)
 
@@ -63,7 +64,7 @@ def rows_of(table: pd.DataFrame, cutoff: float = 15.0) -> MotionRows:
     return build_rows(layout, laid, preparation(RATE, cutoff, "test"), stated_model(robot()))
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_what_friction_does_in_pauses_names_nothing(seed: int) -> None:
     verdict = diagnose_motion(robot(), as_motions(from_point_to_point(seed, 0.6), "motions.csv", 3)).verdict
     assert not [each.title for each in verdict.effects if not each.minor]

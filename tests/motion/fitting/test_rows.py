@@ -19,6 +19,7 @@ from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
 from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, moved, robot
 from tests.motion.test_parts import seen
+from tests.seeds import seeds
 
 JOINT, STIFFNESS, GAIN = 1, 30.0, 0.3
 PER_LOAD, GAINS = 0.07, np.array([11.0, 9.0, 10.5])
@@ -101,7 +102,7 @@ def test_rows_of_another_model_are_those_formed_anew() -> None:
         assert np.abs(kept.columns[j] - first.columns[j]).max() > 0.01
 
 
-@pytest.mark.parametrize("seed", [1, 4])
+@pytest.mark.parametrize("seed", seeds(1, 4))
 def test_friction_behind_gains_and_masses_that_are_off_has_its_own_size(seed: int) -> None:
     rng = np.random.default_rng(seed)
     links = [

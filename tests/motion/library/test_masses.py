@@ -17,6 +17,7 @@ from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.timing import stretches
 from armscope.robot.dynamics import MovingArm
 from tests.motion.moving import moved, robot
+from tests.seeds import seeds
 
 OFF_M = np.array([0.0, 0.12, 0.0])
 """Of link 3; its square is a fifth of what the link's inertia about its joint is."""
@@ -61,7 +62,7 @@ def test_a_loads_columns_are_what_a_body_at_its_place_adds(stated: float) -> Non
     assert as_a_body(free, arm, -values) is free
 
 
-@pytest.mark.parametrize("seed", [3, 5])
+@pytest.mark.parametrize("seed", seeds(3, 5))
 def test_a_load_off_the_flange_is_one_cause(seed: int) -> None:
     """And not a mass at the tool, moments of the last link, and an inertia."""
     arm = robot()

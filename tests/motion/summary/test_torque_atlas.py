@@ -7,6 +7,7 @@ from armscope.core.types import Array
 from armscope.verdict.diagnosis import Atlas
 from tests.motion.moving import Plant, clinging
 from tests.motion.test_pipeline import diagnosed
+from tests.seeds import seeds
 
 
 def at(joint: int, torque: Plant) -> Plant:
@@ -24,7 +25,7 @@ def share(atlas: Atlas, joint: str, driver: str) -> float:
     return float(atlas.share[atlas.locations.index(joint), 0, atlas.drivers.index(driver)])
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_clean_arm_stays_dark(seed: int) -> None:
     atlas = diagnosed(None, seed).atlas
     assert atlas.locations == ("joint 1", "joint 2", "joint 3")

@@ -1,0 +1,10 @@
+"""One claim on several seeds: `make test` asks for it with the first one, `make test-long` with the others."""
+
+from typing import Any
+
+import pytest
+
+
+def seeds(first: int, *others: int) -> list[Any]:
+    """What a test of arms that differ by their seeds is parametrised by."""
+    return [first, *(pytest.param(seed, marks=pytest.mark.long) for seed in others)]
