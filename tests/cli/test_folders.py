@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.cli.folders import robot_for, robot_in, table_in
+from armscope.cli.folders import others_than, robot_for, robot_in, table_in
 from armscope.core.inputs import InputError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -64,3 +64,14 @@ def test_what_lies_in_the_folder_is_an_input_and_never_overwritten(tmp_path):
     words = ["calibrate", str(folder), "-o", str(folder), "--splits", "0", "--force"]
     assert isinstance(CliRunner().invoke(app, words).exception, InputError)
     assert (folder / "robot.yaml").read_bytes() == before
+
+
+def test_another_arm_in_a_later_folder_is_told(tmp_path):
+    for name, source in (("before", "clean"), ("again", "clean"), ("after", "one-effect")):
+        shutil.copytree(EXAMPLES / source, tmp_path / name)
+    before, again, after = (tmp_path / name for name in ("before", "again", "after"))
+    own = (before / "robot.yaml").read_text()
+    (after / "robot.yaml").write_text(own.replace("name:", "# mended by hand\nname:", 1))
+    assert others_than(before / "robot.yaml", [before, again, after]) == [after / "robot.yaml"]
+    words = ["compare", *(str(tmp_path / name) for name in ("before", "after"))]
+    assert "after/robot.yaml differs from" in CliRunner().invoke(app, words).stderr

@@ -1,5 +1,6 @@
 """What changed is named with an interval that holds the truth; where nothing did, nothing is, at the stated rate."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -172,6 +173,18 @@ def test_two_arms_that_are_unlike_the_others_are_held_against_the_rest():
         low, high = each.parameters[0].interval_95
         assert low < planted[each.where[0]] < high
         assert high - low < 2e-4
+
+
+def test_numbers_have_the_digits_that_their_intervals_leave():
+    """In a terminal as on the page: an interval as "10 (10 ... 10)" says nothing."""
+    found = compare(ARM, {"before": session(31), "after": session(32, offsets={3: 1.0e-2})})
+    (number,) = found.changes[0].parameters
+    low, high = (1e3 * end for end in number.interval_95)
+    told = re.search(r"change (\S+) \((\S+) \.\.\. (\S+)\) mrad", found.text())
+    assert told
+    digits = len(told[1].partition(".")[2])
+    assert [float(each) for each in told.groups()[1:]] == [round(low, digits), round(high, digits)]
+    assert 2 * 10.0**-digits < (high - low) / 4 < 60 * 10.0**-digits
 
 
 def test_another_base_and_tool_are_no_change_and_one_recording_is_none():

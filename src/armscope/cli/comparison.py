@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -31,10 +32,13 @@ def compare(
     Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
     changed. Base and tool may differ.
     """
-    from armscope.cli.folders import robot_for, table_in
+    from armscope.cli.folders import others_than, robot_for, table_in
     from armscope.cli.robots import arm_and_tables, print_json
 
-    arm, read = arm_and_tables(robot_for(robot, recordings[0]), [table_in(each) for each in recordings])
+    used = robot_for(robot, recordings[0])
+    for other in others_than(used, recordings):
+        print(f"note: {other} differs from {used}, which is taken for all recordings", file=sys.stderr)
+    arm, read = arm_and_tables(used, [table_in(each) for each in recordings])
     tables = dict(zip(_names(recordings), read, strict=True))
 
     from armscope.comparison import compare as compare_recordings

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from armscope.core.inputs import InputError
@@ -43,3 +44,9 @@ def robot_for(robot: Path | None, given: Path) -> Path:
     found = f"nothing, and no {ROBOT} in {given}" if given.is_dir() else "nothing"
     cure = f"Add --robot {beside or ROBOT}; a URDF or a name (armscope init --list) will do, too."
     raise InputError("--robot", "", found, f"the nominal arm must be known: {ROBOT} is read in a folder only", cure)
+
+
+def others_than(robot: Path, given: Sequence[Path]) -> list[Path]:
+    """robot.yaml of folders that is not the file that is used, word for word."""
+    found = [each for each in map(robot_in, given) if each is not None and each != robot]
+    return [each for each in found if not robot.is_file() or each.read_bytes() != robot.read_bytes()]

@@ -6,9 +6,9 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from armscope.core.numerals import rounded, shown_unit, size_of
+from armscope.core.numerals import shown_unit, size_of
 from armscope.verdict.effects import INTERVAL
-from armscope.verdict.wording import capitalised, enumerated, places_in_words
+from armscope.verdict.wording import capitalised, decimals_for, enumerated, places_in_words
 
 MOST_TOLD = 3
 """More changes than this are counted in the headline, not told."""
@@ -235,13 +235,14 @@ def _by(change: Change) -> str:
 
 def _number_line(number: Valued) -> str:
     factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
-    low, high = (_signed(factor * end) for end in number.interval_95)
-    change = f"change {_signed(factor * number.difference)} ({low} ... {high}) {unit}"
+    low, high = number.interval_95
+    digits = decimals_for(factor * (high - low) / (2 * INTERVAL))
+
+    def told(value: float) -> str:
+        return f"{round(factor * value, digits) + 0.0:.{digits}f}"
+
+    change = f"change {told(number.difference)} ({told(low)} ... {told(high)}) {unit}"
     if number.left_open:
         return f"{number.name}: {change}; how large it is in all of them, these poses leave open"
-    values = " -> ".join(_signed(factor * value) for value in number.values)
+    values = " -> ".join(map(told, number.values))
     return f"{number.name}: {values} {unit}; {change}"
-
-
-def _signed(value: float) -> str:
-    return ("-" if value < 0 else "") + rounded(abs(value))
