@@ -20,9 +20,12 @@ def import_(
     output: Annotated[Path, typer.Option("--output", "-o", help="the recordings table to write (.gz compresses)")],
 ) -> None:
     """Convert raw files to a recordings table by a declarative mapping."""
-    from armscope.recordings.importing.motions import load_any_mapping
+    from armscope.core.inputs import read_keys, validate
+    from armscope.recordings.importing.mapping import Mapping
 
-    load_any_mapping(mapping)  # what is wrong with it is told before all that reads tables is imported
+    content = read_keys(mapping)
+    if "table" not in content:  # of points: what is wrong with it is told before all that reads tables is imported
+        validate(Mapping, content, mapping)
 
     from armscope.recordings.importing.tables import import_recordings
 
