@@ -25,7 +25,7 @@ from armscope.recordings.motions import as_motions
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import build_moving_arm
 
-NOISE, ENCODER, LOAD_KG, G, EVERY = 0.01, 2 * np.pi / 2**19, 2.0, 9.81, 10
+NOISE, ENCODER, LOAD_KG, G, EVERY, CABLE = 0.01, 2 * np.pi / 2**19, 2.0, 9.81, 10, 0.08
 KINDS = {
     "nothing": "",
     "payload": "payload_error",
@@ -111,6 +111,7 @@ class World:
         model = pin_model(self.arm, self.down, self.load, self.heavier)
         data, pieces = model.createData(), []
         usual: np.ndarray | None = None
+        most = 0.0  # of the cable's pull, on the first path: a cable is as stiff on the others
         for number, run in enumerate(("fit 1", "fit 2", "test")):
             rng = np.random.default_rng([self.seed, self.n, number, 78])
             q, dq, ddq = (each[::EVERY] for each in (moves if run == "test" else waves)(self.n, rng))
@@ -121,7 +122,8 @@ class World:
             j = self.joint
             if self.kind == "cable":
                 bent = np.exp(1.5 * (q[:, j] - MIDDLE[j])) - 1
-                torque[:, j] += 0.08 * usual[j] * bent / max(float(np.abs(bent).max()), 1.0)
+                most = most or max(float(np.abs(bent).max()), 1.0)
+                torque[:, j] += CABLE * usual[j] * bent / most
             if self.kind == "gain":
                 torque[:, j] *= 1.05
             torque += NOISE * usual * rng.normal(size=torque.shape)

@@ -83,6 +83,7 @@ class LibraryRules(Constants):
         unit="waves",
     )
     knots_of_position: int = constant(10, "of a free curve of the position", "judgement: a few bends", unit="columns")
+    knots_of_bend: int = constant(4, "of a curve that bends once", "derived: the least spline", unit="columns")
     knots_of_others: int = constant(7, "of other free curves", "judgement: a few bends", unit="columns")
     knots_of_time: int = constant(
         4, "of a drift", "judgement: a cubic; what changes faster is no drift", unit="columns"
@@ -90,9 +91,7 @@ class LibraryRules(Constants):
     least_warming_k: float = constant(
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
-    still_rad: float = constant(
-        0.02, "a joint that spans less stands", "judgement: servo noise and sag", unit="rad or m"
-    )
+    still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
 
 
 @dataclass(frozen=True)

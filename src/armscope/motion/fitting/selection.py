@@ -24,7 +24,7 @@ from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.fitting.torque_delay import Between
-from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_apart, weighed
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, fitted_together, left_apart, weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import follows_motion
@@ -85,7 +85,7 @@ def select_causes(
         progress("weighing causes", share + 0.15)
         if selected is None:
             space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
-            selected, found = chosen(rows, _start(rows), block, space), None
+            selected, found = chosen(rows, starting_weights(rows), block, space), None
         else:  # a scanned number that moves changes columns, and nothing of what competes
             space, found = selected.space, selected.best.candidates
         last = selected.best, selected.best.chosen
@@ -161,16 +161,21 @@ def _summed(
     return by_joint, blocks, build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
 
 
-def _start(rows: MotionRows) -> TorqueWeights:
+def starting_weights(rows: MotionRows) -> TorqueWeights:
     """Weights from what friction, rotors and masses leave, or they and all causes at once.
 
-    At each joint the one that leaves less of motion that it was not fitted to: with all causes a short motion would
-    have no noise left, and without them a slow cause would count as noise that lasts.
+    With all causes a short motion would have no noise left, and without them a slow cause would count as noise that
+    lasts, of which nothing then asks for a cause. So it is told from what each leaves of motion that it was fitted to
+    and that it was not, together (`noise_of`): all causes at once foretell other motion badly, and what they miss there
+    looks like a slow cause, too. At each joint the one counts of which less lasts.
     """
-    ordinary = np.concatenate([rows.layout.own, rows.layout.inertial, rows.layout.response])
-    left = left_apart(rows, (ordinary, np.arange(rows.layout.width)))
-    less = np.argmin(np.median(np.abs(left), axis=1), axis=0)
-    return estimate_weights(rows, np.take_along_axis(left, less[None, None], axis=0)[0])
+    layout = rows.layout
+    choices = (np.concatenate([layout.own, layout.inertial, layout.response]), np.arange(layout.width))
+    beyond = rows.torque - rows.nominal
+    inside = (rows.without_pauses(beyond - rows.modelled(fitted_together(rows, each))) for each in choices)
+    pairs = zip(inside, left_apart(rows, choices), strict=True)
+    ordinary, all_causes = (estimate_weights(rows, left, apart) for left, apart in pairs)
+    return ordinary.where_better(all_causes)
 
 
 def blocks_of(rows: NDArray[np.str_], runs: Sequence[str]) -> Indices:

@@ -37,6 +37,17 @@ class TorqueWeights:
     correlated: Array
     row: Array
 
+    @property
+    def lasting(self) -> Array:
+        """(m,) its power times its autocorrelation time: the density of its spectrum at rest."""
+        return np.asarray(self.sigma**2 * self.correlated)
+
+    def where_better(self, other: TorqueWeights) -> TorqueWeights:
+        """At each joint those of which less lasts."""
+        less = self.lasting <= other.lasting
+        pairs = ((self.sigma, other.sigma), (self.correlated, other.correlated), (self.row, other.row))
+        return TorqueWeights(*(np.where(less, one, two) for one, two in pairs))
+
 
 def estimate_weights(rows: MotionRows, residuals: Array, elsewhere: Array | None = None) -> TorqueWeights:
     """Noise and autocorrelation time of each joint, from what a model leaves, and what lies far from it.

@@ -180,7 +180,8 @@ def _springs(at: _Joint) -> Iterator[PlacedCause]:
         for n in found:
             more: dict[str, Any] = {"variant": str(n), "scanned": (("per_turn", "", float(n)),)}
             yield at.cause(catalogue.RIPPLE, driver, waves, "wave", n, multiplicity=tried, **more)
-    yield at.curve(catalogue.CABLE, driver, q, LIBRARY.knots_of_position)
+    for knots in (LIBRARY.knots_of_position, LIBRARY.knots_of_bend):
+        yield at.curve(catalogue.CABLE, driver, q, knots, variant=str(knots), multiplicity=2)
 
 
 def _outside(at: _Joint) -> Iterator[PlacedCause]:

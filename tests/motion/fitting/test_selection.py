@@ -1,0 +1,43 @@
+"""What a selection starts from: noise, and not the causes that are to be found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.fitting.selection import starting_weights
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from tests.motion.moving import Plant, moved, robot
+
+
+def cable(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """A cable at joint 2, half as large as friction: it follows the angle, and so it lasts."""
+    extra = np.zeros_like(q)
+    extra[:, 1] = np.exp(1.2 * q[:, 1]) - 1
+    return extra
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_slow_cause_of_a_short_motion_is_no_noise(seed: int) -> None:
+    """It counted for so few rows, as what it left of other motion lasted, that nothing asked for a cause."""
+
+    def start(plant: Plant | None) -> Array:
+        found = diagnose_motion(robot(), moved(robot(), seed, plant, seconds=8.0), MotionSettings(cutoff=10.0))
+        weights = starting_weights(found.selected.rows)
+        return np.array([weights.sigma, weights.correlated])
+
+    with_it, without = start(cable), start(None)
+    assert with_it[0] == pytest.approx(without[0], rel=0.15)
+    assert with_it[1] == pytest.approx(without[1], rel=0.5)
+
+
+def test_at_each_joint_those_weights_count_of_which_less_lasts() -> None:
+    rows = diagnose_motion(robot(), moved(robot(), 1, seconds=8.0), MotionSettings(cutoff=10.0)).selected
+    one = rows.weights
+    other = type(one)(one.sigma * [0.5, 2.0, 1.0], one.correlated * [1.0, 1.0, 3.0], 0 * one.row)
+    better = one.where_better(other)
+    assert better.sigma == pytest.approx(one.sigma * [0.5, 1.0, 1.0])
+    assert better.correlated == pytest.approx(one.correlated)
+    assert np.all(better.row[:, 0] == 0)
+    assert np.array_equal(better.row[:, 1:], one.row[:, 1:])
