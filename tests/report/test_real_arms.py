@@ -173,3 +173,18 @@ def test_runs_whose_compliances_do_not_agree_are_named(arm_, tmp_path):
     assert "| points alone | a, c | 2 | **1e-04** | drive 2 + 0.5 drive 4: 90 and 50, apart by 40 ± 21 |" in text
     assert "8 of 9 on the same arm, 1 of 9 on a softer one agree, 95 % of the drives' intervals" in text
     assert "figures/real-arm-compliances.png" in text
+
+
+def test_regions_that_took_no_part_stand_beside_plain_calibrations(arm_, tmp_path):
+    rows = [
+        ("run a", "the last", "geometric", 70, 30, 0.5, 0.4), ("run a", "the last", "armscope", 70, 30, 0.25, 0.2),
+        ("run a", "the highest", "geometric", 70, 30, 0.3, 0.2), ("run a", "the highest", "armscope", 70, 30, 0.6, 0.1),
+    ]  # fmt: skip
+    columns = ["run", "region", "model", "train", "test", "rms_mm", "median_mm"]
+    write_table(arm_.folder / "regions.csv", pd.DataFrame(rows, columns=columns))
+    write_real_arms(tmp_path / "page.md", [arm_], "figures", "commit abc")
+    page = (tmp_path / "page.md").read_text()
+    assert "| run a | the last (30 rows) | 0.500 (0.400) | **0.250** (0.200) |" in page
+    assert "| run a | the highest (30 rows) | **0.300** (0.200) | 0.600 (0.100) |" in page
+    assert "foretells 1 of 2 at least as well" in page
+    assert "1.25 times that one's (median; at worst 2.00)" in page

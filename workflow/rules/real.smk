@@ -76,6 +76,24 @@ rule protocol_real:
         "> {log} 2>&1"
 
 
+rule regions_real:
+    # regions that took no part: the last rows, the farthest, the highest, those on one side
+    input:
+        recordings=recordings_of,
+        robot=robot_of,
+        reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
+    output:
+        f"{RESULTS}/real/{{set}}/regions.csv",
+    params:
+        code=code("armscope.cli.real:regions"),
+    log:
+        f"{RESULTS}/logs/real/{{set}}/regions.log",
+    benchmark:
+        f"{RESULTS}/logs/benchmarks/real/{{set}}/regions.tsv"
+    shell:
+        "armscope real regions {input.recordings} {input.robot} {input.reference} -o {output} > {log} 2>&1"
+
+
 rule compliances_real:
     # do the runs of an arm whose torques were recorded say the same of what gives way?
     input:
@@ -105,7 +123,7 @@ COMPARED = [name for name in PAGED if CONFIG.real[name].loads_recorded]
 rule real_arms:
     input:
         expand(f"{RESULTS}/real/{{set}}/verdict.json", set=PAGED),
-        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
+        expand(f"{RESULTS}/real/{{set}}/{{table}}.csv", set=PAGED, table=("protocol", "regions")),
         expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),
         settings=settings(
             "real_arms",
@@ -158,5 +176,5 @@ rule real_concealed:
 rule real:
     input:
         expand(f"{RESULTS}/real/{{set}}/report.html", set=REAL),
-        expand(f"{RESULTS}/real/{{set}}/protocol.csv", set=PAGED),
+        expand(f"{RESULTS}/real/{{set}}/{{table}}.csv", set=PAGED, table=("protocol", "regions")),
         expand(f"{RESULTS}/real/{{set}}/compliances.csv", set=COMPARED),

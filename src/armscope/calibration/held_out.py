@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.calibration.fit import placed
-from armscope.calibration.model import LEVELS, Level, set_up
+from armscope.calibration.model import LEVELS, Level, SetUp, set_up
 from armscope.calibration.solve import Priors, solve
 from armscope.calibration.splits import foretold, random_split
 from armscope.core.averages import rms_distance
+from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -68,9 +69,29 @@ def held_out_levels(
         train, test = random_split(recordings, seed)
         if most_rows is not None:
             train = np.random.default_rng(seed).permutation(train)[:most_rows]
-        training, testing = rows.rows(train), rows.rows(foretold(rows, train, test))
-        start = placed(training)
-        for level in levels:
-            solved = solve(training, level, "priors", priors or Priors(), robust=False, start=start)
-            found[level].append(rms_distance(testing.residuals(solved.fitted.state)))
+        for level, left in residuals_on(rows, levels, train, foretold(rows, train, test), priors).items():
+            found[level].append(rms_distance(left))
     return [HeldOutLevel(level, tuple(values)) for level, values in found.items()]
+
+
+def residuals_on(
+    rows: SetUp, levels: Iterable[Level], train: Indices, test: Indices, priors: Priors | None = None
+) -> dict[Level, Array]:
+    """What is left of rows that took no part, by level, m.
+
+    Args:
+        rows: the set-up of all rows.
+        levels: which are fitted.
+        train: rows to fit.
+        test: rows whose base and tool those tell.
+        priors: sizes that hold what the rows do not tell; None takes the defaults.
+
+    Returns:
+        (n, 3) of the test rows by level.
+    """
+    training, testing = rows.rows(train), rows.rows(test)
+    start, known = placed(training), priors or Priors()
+    return {
+        level: testing.residuals(solve(training, level, "priors", known, robust=False, start=start).fitted.state)
+        for level in levels
+    }

@@ -53,6 +53,28 @@ def protocol(
     write_table(output / "transfer.csv", transfer_table(carried), digits=6)
 
 
+@app.command()
+def regions(
+    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
+    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
+    reference: Annotated[Path, typer.Argument(help="reference.yaml: which runs")],
+    output: Output,
+) -> None:
+    """Foretell whole regions that took no part: the last rows, the farthest, the highest, those on one side."""
+    import pandas as pd
+
+    from armscope.core.files import write_table
+    from armscope.real.reference import load_reference
+    from armscope.real.regions import measure_regions
+    from armscope.recordings import read_recordings
+    from armscope.robot import load_arm
+
+    arm, stated = load_arm(robot), load_reference(reference)
+    table = read_recordings(recordings, arm.n_motors)
+    found = [measure_regions(arm, table, run, _tell) for run in stated.runs]
+    write_table(output, pd.concat(found, ignore_index=True), digits=6)
+
+
 def _tell(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 

@@ -19,6 +19,7 @@ from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
+from armscope.report.text.regions import region_lines, regions_won
 from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
@@ -80,6 +81,7 @@ def _head(arms: Sequence[RealArm], figures: str, of: str) -> str:
             verdict = "at or below" if ours["mean_mm"] <= others.mm else "**above**"
             best = f"{others.mm:g} ({others.what})"
             rows.append((arm.title, run.name, _spread(ours, run.splits), best, verdict, _oriented(table, run)))
+    won = regions_won([arm.folder for arm in arms])
     return "\n".join(
         [
             "# Real arms",
@@ -92,6 +94,7 @@ def _head(arms: Sequence[RealArm], figures: str, of: str) -> str:
             "",
             *table_lines(head, rows),
             "",
+            *(won, "")[: 2 * bool(won)],
             f"![Every run from the nominal arm to armscope, beside the figures of others]({figures}/real-protocol.png)",
         ]
     )
@@ -107,6 +110,7 @@ def _section(arm: RealArm, figures: str) -> str:
         f"![{arm.title}: the arm coloured by share of the mismatch]({figures}/real-{arm.name}.svg)",
         _levels(table, reference.runs),
         _agreement(arm, reference.runs),
+        region_lines(arm.folder),
         PAPER,
         _paper(table, reference.runs),
     ]
