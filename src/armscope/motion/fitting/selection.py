@@ -24,7 +24,7 @@ from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.fitting.torque_delay import Between
-from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, fitted_together, left_apart, weighed
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_inside_and_apart, weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import follows_motion
@@ -171,10 +171,7 @@ def starting_weights(rows: MotionRows) -> TorqueWeights:
     """
     layout = rows.layout
     choices = (np.concatenate([layout.own, layout.inertial, layout.response]), np.arange(layout.width))
-    beyond = rows.torque - rows.nominal
-    inside = (rows.without_pauses(beyond - rows.modelled(fitted_together(rows, each))) for each in choices)
-    pairs = zip(inside, left_apart(rows, choices), strict=True)
-    ordinary, all_causes = (estimate_weights(rows, left, apart) for left, apart in pairs)
+    ordinary, all_causes = (estimate_weights(rows, *left) for left in left_inside_and_apart(rows, choices))
     return ordinary.where_better(all_causes)
 
 

@@ -7,7 +7,7 @@ through the sums.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -202,26 +202,27 @@ def fitted_together(rows: MotionRows, among: Indices) -> Array:
     return _solved(weighed(rows, parts, plain), among)
 
 
-def left_apart(rows: MotionRows, choices: Sequence[Indices]) -> Array:
-    """What some columns, fitted to the rest of the motion, leave of each part of it.
+def left_inside_and_apart(rows: MotionRows, choices: Sequence[Indices]) -> Iterator[tuple[Array, Array]]:
+    """What some columns leave of a motion that they are fitted to, and of each part of it, fitted to the rest.
 
     Args:
         rows: K rows.
         choices: which columns, more than once.
 
-    Returns:
-        (choices, K, m) N m.
+    Yields:
+        Of each choice both, (K, m) N m.
     """
     part, plain = np.arange(len(rows)) * NOISE.parts // len(rows) % NOISE.blocks_of_time, _plain(rows)
     sums = [weighed(rows, parts, plain) for parts in sums_by_joint(rows, plain.row, part)]
-    left = np.empty((len(choices), *rows.torque.shape))
-    for number in range(len(sums)):
-        rest = total([other for k, other in enumerate(sums) if k != number])
-        which = np.flatnonzero(part == number)
-        for choice, among in enumerate(choices):
-            modelled = rows.nominal[which] + rows.modelled(_solved(rest, among), which)
-            left[choice, which] = rows.torque[which] - modelled
-    return np.stack([rows.without_pauses(each) for each in left])
+    rests = [total([other for k, other in enumerate(sums) if k != number]) for number in range(len(sums))]
+    whole, beyond = total(sums), rows.torque - rows.nominal
+    for among in choices:
+        apart = beyond.copy()
+        for number, rest in enumerate(rests):
+            which = np.flatnonzero(part == number)
+            apart[which] -= rows.modelled(_solved(rest, among), which)
+        inside = beyond - rows.modelled(_solved(whole, among))
+        yield rows.without_pauses(inside), rows.without_pauses(apart)
 
 
 def _plain(rows: MotionRows) -> TorqueWeights:
