@@ -102,10 +102,10 @@ def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tup
 def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
     """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
     least: dict[str, float] = {}
-    for each in possible:
-        if each.placed.effect is JOINT_OFFSET:
-            size = model.smallest_seen(each, LEVEL / len(possible), POWER)
-            least[each.placed.location] = max(size, least.get(each.placed.location, 0.0))
+    zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
+    sizes = model.smallest_seen(zeros, LEVEL / len(possible), POWER) if zeros else ()
+    for each, size in zip(zeros, sizes, strict=True):
+        least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
     return tuple(Seen(location, size) for location, size in least.items())
 
 
@@ -128,7 +128,7 @@ def _change(
     alike = [other for other in taken if other.placed is found.placed and other is not found]
     # values of its own in every recording hold all changes of the effect: those beside them would be the same columns
     beside = [other for other in taken if other.placed is not found.placed]
-    values, covariance, free = model.own_values(found.placed, beside, len(names))
+    values, covariance, free = model.own_values(found.number, beside, len(names))
     q = len(found.placed.terms)
     there, against = _but_for_it_alike(found, alike)
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))

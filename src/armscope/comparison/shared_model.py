@@ -16,6 +16,8 @@ from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import linearised, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.transfer import belongs_to_the_arm
+from armscope.inference.constants import NUMERICS
+from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 from armscope.measurement import robust
 from armscope.physics.effect import Placed, Term
 from armscope.physics.frames import free_frames
@@ -38,12 +40,13 @@ HELD = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Possible:
-    """A change that may be: an effect, its parameters' usual sizes (q,), in which of the numbers (3N,), and where.
+    """A change that may be: an effect, its number and its parameters' usual sizes (q,), in which of (3N,), and where.
 
     In the rows of some recordings, ``sets``, held ``against`` others.
     """
 
     placed: Placed
+    number: int
     plausible: Array
     there: NDArray[np.bool_]
     sets: tuple[int, ...]
@@ -115,7 +118,7 @@ class SharedModel:
             alone._noise = alone._settled_noise()
             parts = [np.repeat(half, 3) for half in halves(angles[rows[::3]])]
             changes = [
-                Possible(each, self._of(self.plausible, at), part, (), ())
+                Possible(each, at, self._of(self.plausible, at), part, (), ())
                 for at, each in enumerate(self.placed)
                 for part in parts
             ]
@@ -124,7 +127,7 @@ class SharedModel:
     def possible_changes(self, masks: Sequence[tuple[tuple[int, ...], tuple[int, ...]]]) -> list[Possible]:
         """Every effect of the library in every one of some groups of recordings."""
         return [
-            Possible(each, self._of(self.plausible, number), np.isin(self.group, inside), inside, against)
+            Possible(each, number, self._of(self.plausible, number), np.isin(self.group, inside), inside, against)
             for number, each in enumerate(self.placed)
             for inside, against in masks
             if np.abs(self.columns_of(number, inside)).max() > 0
@@ -132,14 +135,13 @@ class SharedModel:
 
     def columns(self, possible: Possible) -> Array:
         """(3N, q) a change's columns, mm per unit, as its rows are weighed now."""
-        return self.effects[:, self._at(self.placed.index(possible.placed))] * possible.there[:, None]
+        return self.effects[:, self._at(possible.number)] * possible.there[:, None]
 
     def scores(self, possible: Sequence[Possible], taken: Sequence[Possible]) -> list[Scored]:
         """How much better each change makes the fit, beside those that were taken."""
         base, penalty = self._base(taken)
         variance, free = self._left(base, penalty)
-        factor = np.linalg.cholesky(base.T @ base + np.diag(penalty))
-        half = np.linalg.solve(factor, base.T)
+        half = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ base.T
         left = self.residual - half.T @ (half @ self.residual)
         return [self._score(each, half, left, variance, free) for each in possible]
 
@@ -164,27 +166,28 @@ class SharedModel:
         nats = free / 2 * np.log(total / without) / self.dispersion - q / 2 * np.log(max(free, 2.0))
         return Scored(statistic, statistic.p(self.dispersion), float(nats))
 
-    def smallest_seen(self, possible: Possible, level: float, power: float) -> float:
-        """How large a change of one number must be to be seen beside all that is shared.
+    def smallest_seen(self, possible: Sequence[Possible], level: float, power: float) -> Array:
+        """How large changes of one number each must be to be seen, each alone beside all that is shared.
 
         Args:
-            possible: the change.
-            level: the probability below which it is one.
+            possible: the n changes.
+            level: the probability below which one is a change.
             power: in which share of cases.
 
         Returns:
-            The size, SI units; infinite where the rows tell nothing of it.
+            (n,) the sizes, SI units; infinite where the rows tell nothing of it.
         """
         base, penalty = self._base(())
         variance, free = self._left(base, penalty)
-        column = self.columns(possible)[:, 0]
-        across = np.linalg.solve(np.linalg.cholesky(base.T @ base + np.diag(penalty)), base.T @ column)
-        square, information = float(column @ column), float(column @ column - across @ across)
-        if square <= variance / possible.plausible[0] ** 2 or information <= UNSEEN * square:
-            return float("inf")
+        columns = np.column_stack([self.columns(each)[:, 0] for each in possible])
+        across = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ (base.T @ columns)
+        square = np.sum(columns**2, axis=0)
+        information = square - np.sum(across**2, axis=0)
+        usual = np.array([each.plausible[0] for each in possible])
+        unseen = (square <= variance / usual**2) | (information <= UNSEEN * square)
         # t: F of one number is its square, and noise adds to it or takes away
         least = stdtrit(free - 1, 1 - level / 2) + stdtrit(free - 1, power)
-        return float(least * np.sqrt(self.dispersion * variance / information))
+        return np.where(unseen, np.inf, least * np.sqrt(self.dispersion * variance / np.where(unseen, 1, information)))
 
     def variance(self, taken: Sequence[Possible]) -> float:
         """Of what is left, per axis, mm^2."""
@@ -204,18 +207,17 @@ class SharedModel:
         values = np.linalg.lstsq(stacked, np.concatenate([self.residual, np.zeros(len(penalty))]), rcond=None)[0]
         return np.asarray((self.residual - base @ values) / self.weight)
 
-    def own_values(self, placed: Placed, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
+    def own_values(self, number: int, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
         """An effect with a value of its own in every recording.
 
         Args:
-            placed: the effect, of q terms.
+            number: the effect's, of q terms.
             beside: changes of other effects.
             count: of the recordings.
 
         Returns:
             Values (count q), SI units, their covariance, and how many numbers are free.
         """
-        number = self.placed.index(placed)
         base, penalty = self._base(beside, without=number)
         own = np.hstack([self.columns_of(number, (k,)) for k in range(count)])
         # what one recording alone does not tell stays at the prior
@@ -259,21 +261,25 @@ class SharedModel:
         small = np.full(free.shape[1], HELD)  # a wrist that was held leaves part of its tool to the base
         return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
 
-    def _left(self, base: Array, penalty: Array) -> tuple[float, float]:
-        """Variance per number, and how many numbers are free, beside columns with penalties."""
-        gram = base.T @ base
-        inverse = np.linalg.inv(gram + np.diag(penalty))
-        values = inverse @ (base.T @ self.residual)
+    def _left(self, base: Array, penalty: Array, gram: Array | None = None) -> tuple[float, float]:
+        """Variance per number, and how many numbers are free, beside columns (of this gram) with penalties."""
+        gram = base.T @ base if gram is None else gram
+        penalty = np.maximum(penalty, NUMERICS.rounding * gram.diagonal())  # few rows are fitted exactly
+        half = lower_inverse(lower_cholesky(gram, penalty))
+        values = half.T @ (half @ (base.T @ self.residual))
         left = self.residual - base @ values
-        used = float(np.trace(inverse @ gram))
+        used = len(penalty) - float(np.sum(half**2 @ penalty))
         free = max(len(left) - used, 1.0)
         return float((left @ left + values**2 @ penalty) / free), free
 
     def _settled_noise(self) -> float:
         """The variance that the prior is weighed by, found with itself."""
         self._noise = float(np.mean(self.residual**2)) / 100 + 1e-12
+        base, penalty = self._base(())
+        gram, frames = base.T @ base, self.frames.shape[1]
         for _ in range(4):
-            self._noise = max(self._left(*self._base(()))[0], 1e-12)
+            penalty[frames:] = self._noise
+            self._noise = max(self._left(base, penalty, gram)[0], 1e-12)
         return self._noise
 
 

@@ -80,8 +80,9 @@ def _rates(
     for by, of in groups:
         mine = rates[(rates["by"] == by) & (rates["of"] == of)]
         for size, group in mine.groupby("size"):
-            cells = group.set_index("score")[["estimate", "right", "cases"]]
-            shown = [share_text(*cells.loc[score]) if score in cells.index else "–" for score in SCORES]
+            cells = group[["score", "estimate", "right", "cases"]].itertuples(index=False)
+            shares = {score: share_text(*numbers) for score, *numbers in cells}
+            shown = [shares.get(score, "–") for score in SCORES]
             name = (titles or {}).get(of, of.replace("_", " "))
             rows.append((name, f"{size:g}", *shown))
     return table_lines([head, "size", *SCORES.values()], rows)
