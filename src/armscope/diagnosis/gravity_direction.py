@@ -25,7 +25,7 @@ from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights
-from armscope.physics.backgrounds import ELASTIC, FAMILIES, backgrounds
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, constants, springs
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -118,7 +118,9 @@ class _NegativeLogEvidence:
 
     def _evaluated(self, tilt: Array) -> float:
         arm = turned(self.start.arm, tilt)
-        space = build_model_space(self.frames, list(backgrounds(arm, self.recordings).values()), [])
+        # columns of families that have no part in any of the sizes below would be formed a hundred times for nothing
+        everywhere = {GEOMETRIC: constants(arm), ELASTIC: springs(arm, self.recordings)}
+        space = build_model_space(self.frames, [everywhere.get(family, []) for family in FAMILIES], [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
         made = build_problem(

@@ -56,16 +56,12 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     Returns:
         What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
-    drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
     pedestal = [
         placed for placed in elastic.BASE_COMPLIANCE.place(arm, recordings) if placed.variant == elastic.TWO_AXES
     ]
-    constant = [
-        replace(placed, prior_scale=(FORM.tolerance,) * len(placed.terms)) for placed in geometric.background(arm)
-    ]
     return {
-        GEOMETRIC: constant,
-        ELASTIC: _loaded([*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)]),
+        GEOMETRIC: constants(arm),
+        ELASTIC: springs(arm, recordings),
         TRANSMISSION: gear_waves(recordings, PLAUSIBLE.waves),
         DRIFT: [*wander(recordings, set_ups), *link_wander(arm, recordings)],
         SOFT: [_sized(placed) for placed in soft_starts(arm, recordings)],
@@ -76,9 +72,20 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     }
 
 
-def _loaded(springs: Iterable[Placed]) -> list[Placed]:
+def constants(arm: Arm) -> list[Placed]:
+    """D-H constants, each within a maker's tolerance."""
+    return [replace(placed, prior_scale=(FORM.tolerance,) * len(placed.terms)) for placed in geometric.background(arm)]
+
+
+def springs(arm: Arm, recordings: Recordings) -> list[Placed]:
+    """What gives way at the joints: drives and bearings."""
+    drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
+    return _loaded([*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)])
+
+
+def _loaded(giving_way: Iterable[Placed]) -> list[Placed]:
     """What bears a load; the rest has no size, and shows nothing."""
-    return [_sized(placed) for placed in springs if all(np.isfinite(term.plausible) for term in placed.terms)]
+    return [_sized(placed) for placed in giving_way if all(np.isfinite(term.plausible) for term in placed.terms)]
 
 
 def _sized(placed: Placed) -> Placed:
