@@ -11,6 +11,7 @@ import threading
 
 import pytest
 
+from armscope.cli import app
 from armscope.core.files import replacing
 from armscope.core.locks import Busy
 from tests.core.toy import EXAMPLE, PREDICT, ROOT, command, leftovers, run, tree
@@ -53,9 +54,9 @@ def test_a_dash_is_standard_output_and_words_go_elsewhere():
 
 def test_devices_are_written_through(tmp_path):
     to_file, to_device, to_stdout = tmp_path / "a.csv", command(*PREDICT, "/dev/stdout"), command(*PREDICT, "-")
-    assert command(*PREDICT, to_file).returncode == 0
+    assert run(*PREDICT, to_file, app=app).exit_code == 0
     assert to_device.stdout == to_stdout.stdout == to_file.read_text()
-    assert command(*PREDICT, "/dev/null").returncode == 0
+    assert run(*PREDICT, "/dev/null", app=app).exit_code == 0
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
     appended = tmp_path / "log"
     appended.write_text("before\n")
@@ -90,9 +91,9 @@ def small_disk(tmp_path):
 
 
 def test_a_disk_that_fills_up_keeps_the_old_result(small_disk):
-    out = small_disk / "out"
-    line = ("diagnose", EXAMPLE / "recordings.csv", "-r", EXAMPLE / "robot.yaml", "-o", out, "--resamples", "0")
-    assert command(*line, "--no-cross-validation", "--no-report").returncode == 0
+    out, few_rows = small_disk / "out", EXAMPLE.parent / "one-effect"
+    line = ("diagnose", few_rows / "recordings.csv", "-r", few_rows / "robot.yaml", "-o", out, "--resamples", "0")
+    assert run(*line, "--no-cross-validation", "--no-report", app=app).exit_code == 0
     before = tree(out)
     full = command(*line, "--no-cross-validation")
     assert full.returncode == 74, full.stderr

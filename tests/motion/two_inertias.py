@@ -6,6 +6,8 @@ dynamics or laws takes part.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import mujoco
 import numpy as np
 import pandas as pd
@@ -34,6 +36,11 @@ def play(half: float) -> str:
 
 def recorded(behind: str, joint: int = 2, seed: int = 1, runs: int = 2, noise: float = 0.02) -> pd.DataFrame:
     """motions.csv of the arm with something behind the motor of a joint (from 1) whose link has an encoder, too."""
+    return _simulated(behind, joint, seed, runs, noise).copy()
+
+
+@lru_cache  # the rigid arm is the same in many tests, and a second of MuJoCo's steps
+def _simulated(behind: str, joint: int, seed: int, runs: int, noise: float) -> pd.DataFrame:
     rng = np.random.default_rng(seed)
     model = mujoco.MjModel.from_xml_string(_xml(behind, joint))
     return pd.concat([_run(model, (f"path {n + 1}", joint), rng, noise) for n in range(runs)], ignore_index=True)
