@@ -40,12 +40,15 @@ class SharedDirectionGroup:
         return any(follows("load", driver) for driver in self.drivers)
 
     def values(self, scene: Scene) -> Array:
-        """(k, n) drivers times factors; kept where they are those of every posture."""
+        """(k, n) drivers times factors; kept where they are those of every posture, and all rows are one chunk.
+
+        Of a long table they would take as much memory as all else.
+        """
 
         def computed() -> Array:
             return np.array([scene.driver(driver) for driver in self.drivers]) * self.factors
 
-        if self.follows_load:
+        if self.follows_load or len(scene.recordings) >= STEPS.chunk_rows:
             return computed()
         kept: Array = scene.rigid.remember(self, computed)
         return kept
