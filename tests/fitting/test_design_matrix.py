@@ -1,8 +1,11 @@
 """Sums over rows by direction, against the columns written out."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from armscope.fitting import design_matrix
 from armscope.fitting.design_matrix import StructuredDesign, component_rows, grouped_columns, structured_design
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.orientations import ORIENTATIONS
@@ -81,6 +84,15 @@ def test_products_within_blocks_of_one_direction_and_what_is_kept_of_it(seen: Se
     loads = tuple(term(f"{n}", "", (motor(2), Driver("gravity torque", (2,))), si=n) for n in range(1, 20))
     kept = [structured_design(posture, grouped_columns(loads)).drivers[0] for _ in range(2)]
     assert kept[0] is not kept[1]
+
+
+def test_of_a_table_of_several_chunks_no_drivers_are_kept(seen: Seen, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They would take as much memory as all else does of 100,000 rows."""
+    monkeypatch.setattr(design_matrix, "STEPS", replace(design_matrix.STEPS, chunk_rows=ROWS))
+    waves = tuple(term(f"sine {n}", "", (motor(2), Driver("sine", (2, n)))) for n in range(40, 60))
+    one, again = (structured_design(seen[0], grouped_columns(waves)).drivers[0] for _ in range(2))
+    assert one is not again
+    np.testing.assert_array_equal(one, again)
 
 
 def test_some_rows_and_their_rest_make_all_rows(seen: Seen) -> None:

@@ -14,13 +14,16 @@ from armscope.core.inputs import InputError, folder_of
 
 app = Commands("real", no_args_is_help=True)
 Of = Annotated[str, typer.Option(help="what the results are of: 'commit ...'")]
+Recorded = Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")]
+ItsRobot = Annotated[Path, typer.Argument(help="its robot.yaml")]
+Stated = Annotated[Path, typer.Argument(help="reference.yaml: runs, splits, and what others found")]
 
 
 @app.command()
 def protocol(
-    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
-    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
-    reference: Annotated[Path, typer.Argument(help="reference.yaml: runs, splits and figures of others")],
+    recordings: Recorded,
+    robot: ItsRobot,
+    reference: Stated,
     output: Output,
     diagnosed_splits: Annotated[int | None, typer.Option(help="diagnose on so many splits only")] = None,
     oriented_splits: Annotated[int | None, typer.Option(help="of these, so many with orientations, too")] = None,
@@ -55,9 +58,9 @@ def protocol(
 
 @app.command()
 def regions(
-    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
-    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
-    reference: Annotated[Path, typer.Argument(help="reference.yaml: which runs")],
+    recordings: Recorded,
+    robot: ItsRobot,
+    reference: Stated,
     output: Output,
 ) -> None:
     """Foretell whole regions that took no part: the last rows, the farthest, the highest, those on one side."""
@@ -81,9 +84,9 @@ def _tell(text: str) -> None:
 
 @app.command()
 def compliances(
-    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
-    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
-    reference: Annotated[Path, typer.Argument(help="reference.yaml: runs, and compliances that others found")],
+    recordings: Recorded,
+    robot: ItsRobot,
+    reference: Stated,
     output: Output,
     arms: Annotated[int, typer.Option(help="simulated arms on which the comparison is rehearsed")] = 40,
     seed: Annotated[int, typer.Option(min=0, help="of the simulated arms")] = 0,
@@ -110,8 +113,8 @@ def compliances(
 
 @app.command()
 def plant(
-    recordings: Annotated[Path, typer.Argument(help="recordings of a real arm, all runs")],
-    robot: Annotated[Path, typer.Argument(help="its robot.yaml")],
+    recordings: Recorded,
+    robot: ItsRobot,
     settings: Settings,
     part: Annotated[str, typer.Option(help="original, fixed, fresh or withheld")],
     visible: Annotated[Path, typer.Option(help="folder for what may be seen")],

@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
+from scipy.ndimage import binary_closing
 
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
@@ -108,10 +109,14 @@ def _apart(X: Array, prior: Array, slope: Array, left: Array) -> tuple[float, fl
 
 
 def _between_reversals(rows: MotionRows, joint: int) -> NDArray[np.bool_]:
-    """(K,) where dry friction pulls one way: how exactly it changes sides is no matter of the delay."""
+    """(K,) where dry friction pulls one way: how exactly it changes sides is no matter of the delay.
+
+    The low-pass rings about such a moment, and passes zero there in single rows: those between two that turn turn, too.
+    """
     (place,) = np.flatnonzero(rows.at[joint] == rows.layout.reversals[joint, 1])
-    turns = np.abs(rows.columns[joint][:, place])
-    return np.asarray(turns <= FILTER.turning * turns.max())
+    size = np.abs(rows.columns[joint][:, place])
+    turning = size > FILTER.turning * size.max()
+    return np.asarray(~(turning | binary_closing(turning)))  # a closing forgets the first and the last row
 
 
 def _slope(selected: SelectedCauses, joint: int) -> Array:

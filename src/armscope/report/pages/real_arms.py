@@ -19,7 +19,7 @@ from armscope.real.reference import Reference, ReferenceRun, load_reference
 from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
-from armscope.report.text.regions import region_lines, regions_won
+from armscope.report.text.regions import PLUS, region_lines, regions_won
 from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
@@ -172,7 +172,7 @@ def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
 
 def _levels(table: pd.DataFrame, runs: Sequence[ReferenceRun]) -> str:
     turned = ORIENTED in set(table["model"])
-    head = ["run", *("+ compliance" if level == "compliance" else level for level in LEVELS), "armscope"]
+    head = ["run", *(PLUS.get(level, level) for level in LEVELS), "armscope"]
     head += ["orientations too", "angle left (mrad)"] if turned else []
     rows = []
     for run in runs:

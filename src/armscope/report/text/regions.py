@@ -16,6 +16,7 @@ Whole regions left out, 30 % of the configurations each, where a random split le
 distance there, its median in brackets (single bad shots move the RMS of few rows, not the median); bold is the lowest
 RMS. Points alone, as above."""
 PLUS = {"compliance": "+ compliance"}
+"""What a level is called at the head of a column: it comes on top of the one before it."""
 
 
 def region_lines(folder: Path) -> str:
