@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array, Indices, Progress
-from armscope.diagnosis.against_their_load import against_their_load
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
+from armscope.diagnosis.impossible import impossible
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.promotion import named
 from armscope.diagnosis.round_state import RoundState
@@ -115,8 +115,7 @@ class SelectionLoop:
             may_end = not new and same and (settled or not self._depends())
             if may_end and not self.noise.has_changed(self.model, self.fit.noise):
                 break
-            settled = same
-            previous = state
+            settled, previous = same, state
             self.candidates = [*self.candidates, *new]
 
     def _refine(self, of_a_sample: bool) -> None:
@@ -207,22 +206,25 @@ class SelectionLoop:
 
     def _take(self, search: Search, found: Hypothesis) -> None:
         """Names and the exact fit of a hypothesis."""
-        self.found = search.refined(told_by_laws(search, found))
-        self.best, self.last = named(search, self.space, self.found), (found, self.space)
-        self.fit = self._fitted()
-        if against := against_their_load(self.space, self.best, self.fit):
-            self.best = search.without(self.best, against)
-            self.fit = self._fitted()
+        self.found, self.last = search.refined(told_by_laws(search, found)), (found, self.space)
+        self._fit(named(search, self.space, self.found))
 
-    def _fitted(self, of_all: bool = False) -> Refit:
-        """The best hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""
+    def _fit(self, best: Hypothesis, of_all: bool = False) -> None:
+        """The exact fit of the names, without those that no arm can have."""
+        self.best, self.fit = best, self._fitted(best, of_all)
+        while none_has := impossible(self.problem, self.space, self.best, self.fit):
+            self.best = Search.on(self.problem).without(self.best, none_has)
+            self.fit = self._fitted(self.best, of_all)
+
+    def _fitted(self, best: Hypothesis, of_all: bool = False) -> Refit:
+        """A hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""
         effects = [
             (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
-            for c in self.best.chosen
+            for c in best.chosen
         ]
-        small = list(zip(self.families, background_sizes(self.problem, self.best.background), strict=True))
+        small = list(zip(self.families, background_sizes(self.problem, best.background), strict=True))
         (masses,) = self.space.companions
-        small.append((self.loads, float(masses.joins(self.best.candidates, self.best.background))))
+        small.append((self.loads, float(masses.joins(best.candidates, best.background))))
         rows, white, known = self.summed or (self.noise.rows, self.noise.weights.whitening, self.table)
         if isinstance(known, SummedRows):
             known.on_the_way = not of_all
@@ -243,8 +245,8 @@ class SelectionLoop:
         left = what_stands(self.problem, self.blocks, self.best, self.space, wander)
         waves = self._waves(left, finer)
         if self.summed or left is not self.best or waves != self.families[GEARS]:
-            self.best, self.families[GEARS] = left, waves
-            self.fit = self._fitted(of_all=True)
+            self.families[GEARS] = waves
+            self._fit(left, of_all=True)
             self.model = self.fit.model
         return self.selected()
 

@@ -14,6 +14,7 @@ from typing import Literal
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Clause, Told
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.loaded_arm import LoadedArm, Misstated
 from armscope.physics.terms import AXES, ONE, Direction, Driver, DriverKind, Product, Term, motor, term
 from armscope.recordings import Recordings
@@ -151,6 +152,14 @@ class Part:
 
     placed: Placed
     values: Array
+
+    @property
+    def implausible(self) -> list[tuple[Term, float]]:
+        """The terms whose values are larger than real arms show, and the values; a curve is told as a whole."""
+        if self.placed.parametrisation == "curve":
+            return []
+        told = zip(self.placed.terms, self.values, strict=True)
+        return [(term, float(value)) for term, value in told if abs(value) > PLAUSIBLE.beyond * term.plausible]
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Part, Placed
 from armscope.verdict.effects import Parameter
 from armscope.verdict.schema import Notice
@@ -46,8 +45,7 @@ def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
     beyond = [
         f"{term.name} of {part.placed} by {value / term.si:.3g} {term.unit}"
         for part in parts
-        for term, value in zip(part.placed.terms, part.values, strict=True)
-        if part.placed.parametrisation != "curve" and abs(value) > PLAUSIBLE.beyond * term.plausible
+        for term, value in part.implausible
     ]
     if not beyond:
         return None

@@ -1,0 +1,57 @@
+"""Names whose fitted values no arm can have: what pushes against its load, and what something else takes back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.fitting.refit import Refit
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.normal_equations import projected_rms
+from armscope.inference.problem import Problem, SelectedEffect
+from armscope.physics.effect import Part
+from armscope.physics.elastic import TWO_AXES, stiffest_of_two
+
+
+def impossible(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
+    """Names that don't stand once they are fitted with the exact model.
+
+    Args:
+        problem: the sums that the names were chosen on.
+        space: which effect each candidate is.
+        hypothesis: with the names.
+        fit: its exact fit.
+
+    Returns:
+        Their candidates.
+    """
+    return [
+        chosen.candidate
+        for chosen, part in zip(hypothesis.chosen, fit.model.parts, strict=True)
+        if _against_its_load(space, chosen, part, fit) or _taken_back(problem, chosen.candidate, part)
+    ]
+
+
+def _against_its_load(space: EffectSpace, chosen: SelectedEffect, part: Part, fit: Refit) -> bool:
+    """Whether what can only give way pushes: in a background, or surely about one of two axes."""
+    if chosen.nested and space.nonnegative[chosen.candidate] and part.values[0] < 0:
+        return True
+    if part.placed.variant != TWO_AXES:
+        return False
+    pushing, stderr = stiffest_of_two(part.values, fit.covariance_of(part.placed))
+    return pushing < -LOOP.surely_negative * stderr
+
+
+def _taken_back(problem: Problem, candidate: int, part: Part) -> bool:
+    """Whether values are larger than arms show, yet the tool misses by less than these would move it.
+
+    A link that is 30 mm too long shows at the tool. Where less is seen, other causes take the rest back, each of them
+    as far from any arm that was built: a way to write the rows, and nothing that somebody could find and mend.
+    """
+    if not part.implausible:
+        return False
+    columns = problem.space.candidates[candidate].columns
+    coefficients = np.zeros(len(problem.scale))
+    coefficients[columns] = part.values * problem.scale[columns]
+    return projected_rms(problem.equations, problem.space.frames, coefficients) > problem.mismatch

@@ -1,0 +1,61 @@
+"""What no arm can have is found by its fitted values: what gives way can't push, what is huge must show at the tool."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.core.types import unheard
+from armscope.diagnosis.impossible import impossible
+from armscope.diagnosis.selection_loop import SelectionLoop
+from armscope.fitting.registration import fit_frames
+from armscope.inference.problem import SelectedEffect
+from armscope.measurement.noise import Noise
+from armscope.physics.effect import Part
+from armscope.physics.frames import free_frames
+
+from ..backgrounds import sizes
+from .planted import Wanted, planted
+
+ROWS = 100
+
+
+def named(wanted: Wanted, nested: bool) -> tuple[SelectionLoop, int]:
+    """A loop after one round on planted effects, its best hypothesis that has the first alone, and its candidate."""
+    arm, table = planted("six-axis", wanted, ROWS, 0.02, seed=3)
+    blocks = np.arange(ROWS) % 5
+    loop = SelectionLoop(fit_frames(arm, table), table, Noise(0.0, 0.0, ""), free_frames(table, False), blocks, unheard)
+    loop.round([sizes()])
+    key = next(iter(wanted))
+    (number,) = [n for n, p in enumerate(loop.space.placed) if p.key == key and not p.variant]
+    loop.best = replace(loop.best, chosen=(SelectedEffect(number, 4, nested=nested),))
+    return loop, number
+
+
+@pytest.mark.parametrize(("compliance", "pushes"), [(2e-6, False), (-2e-6, True)])
+def test_a_name_within_a_background_may_not_be_negative_where_it_gives_way(compliance: float, pushes: bool):
+    loop, number = named({("joint_compliance", "joint 2"): [compliance]}, nested=True)
+    fit = loop._fitted(loop.best)
+    assert np.sign(fit.model.parts[0].values[0]) == np.sign(compliance)
+    assert impossible(loop.problem, loop.space, loop.best, fit) == ([number] if pushes else [])
+
+
+@pytest.mark.parametrize(
+    ("planted_ratio", "fitted_ratio", "is_none"),
+    [
+        (0.02, 0.02, False),  # another gear than the one stated: beyond what arms show, and seen
+        (0.0005, 0.02, True),  # something else takes it back
+        (0.0005, 0.002, False),  # may be taken back in part, but arms have it
+    ],
+)
+def test_a_value_beyond_what_arms_show_is_no_name_where_the_tool_misses_by_less(
+    planted_ratio: float, fitted_ratio: float, is_none: bool
+):
+    loop, number = named({("gear_ratio", "joint 5"): [planted_ratio]}, nested=False)
+    fit = loop._fitted(loop.best)
+    (part,) = fit.model.parts
+    # as a fit leaves it beside gears' waves that are as large: their sum is what the rows hold
+    told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([fitted_ratio])),)))
+    assert impossible(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])
