@@ -5,10 +5,15 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+import numpy as np
+import pytest
+
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
+from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.summary import tenable
 from armscope.motion.summary.unnamed_masses import odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 from tests.motion.moving import ROBOT, moved, robot
@@ -34,7 +39,8 @@ def named(selected: SelectedCauses, number: int) -> SelectedCauses:
     return dataclasses.replace(selected, best=best)
 
 
-def test_a_heavier_link_is_told_from_one_that_is_otherwise_off() -> None:
+def test_a_heavier_link_is_told_from_one_that_is_otherwise_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where every path tells its size it stands, too, though masses without a name foretell as much."""
     heavier: dict[str, Any] = {
         "mass_kg": 1.2 * SECOND["mass_kg"],
         "inertia_kg_m2": [1.2 * each for each in SECOND["inertia_kg_m2"]],
@@ -43,6 +49,11 @@ def test_a_heavier_link_is_told_from_one_that_is_otherwise_off() -> None:
     mass = placed(selected, "link_mass", "link 2")
     assert selected.best.candidates == {mass}
     assert odds_of_name(selected, mass) > 3 * INDISTINGUISHABLE_NATS
+    monkeypatch.setattr(tenable, "held_out_gains", lambda at: dict.fromkeys(at.best.candidates, -0.1))
+    assert list(tenable._of_one_path(selected)) == []
+    no_path = PathAgreement(np.ones(2), np.full(2, np.inf))
+    monkeypatch.setattr(tenable, "agreement", lambda at, number: no_path)
+    assert list(tenable._of_one_path(selected)) == [mass]
 
 
 def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:

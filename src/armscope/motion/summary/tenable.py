@@ -167,11 +167,13 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     """Whose size differs from path to path, or that makes the motion of paths that took no part no better known.
 
     Of several of the latter kind only the least goes where all together foretell something: one may say what another
-    does.
+    does. A name of masses foretells what masses near the stated ones do without it, a little better or worse by chance;
+    where every path tells its size it stands, and whether it is a name at all, `_told_apart` asks.
     """
     best, gains = selected.best, held_out_gains(selected)
-    yield from (number for number in best.candidates if agreement(selected, number).consistent is False)
-    useless = [number for number in best.candidates if gains[number] <= 0]
+    agree = {number: agreement(selected, number).consistent for number in best.candidates}
+    yield from (number for number in best.candidates if agree[number] is False)
+    useless = [n for n in best.candidates if gains[n] <= 0 and not (agree[n] and _of_masses(selected, n))]
     if not useless:
         return
     kept = tuple(effect for effect in best.chosen if effect.candidate not in useless)
@@ -184,14 +186,19 @@ def _told_apart(selected: SelectedCauses) -> SelectedCauses:
 
     Not of what is there in some runs only: no link is otherwise there.
     """
-    placed = selected.rows.layout.placed
     while True:
-        masses = [n for n in selected.best.candidates if placed[n].inertial is not None and not placed[n].runs]
+        masses = [n for n in selected.best.candidates if _of_masses(selected, n)]
         odds, least = min(((odds_of_name(selected, number), number) for number in masses), default=(np.inf, 0))
         if odds >= INDISTINGUISHABLE_NATS:
             return selected
         kept = [effect for effect in selected.best.chosen if effect.candidate != least]
         selected = at_own_gain(_alone(selected, kept))
+
+
+def _of_masses(selected: SelectedCauses, number: int) -> bool:
+    """Whether a cause is masses that are other than stated in all runs, as the background of masses has them, too."""
+    placed = selected.rows.layout.placed[number]
+    return placed.inertial is not None and not placed.runs
 
 
 def held_out_gains(selected: Weighed) -> dict[int, float]:
