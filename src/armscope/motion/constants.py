@@ -162,10 +162,9 @@ class RowNoiseRules(Constants):
     least_share: float = constant(
         1e-4, "of a torque's spread that its noise is at least", "derived: tables hold some six digits of a torque"
     )
+    grown: float = constant(4.0, "of an earlier round's lasting noise, at most", "judgement: twice the amplitude")
     longest_lag: int = constant(1000, "over which autocorrelation is summed", "judgement: time", unit="rows")
-    window: float = constant(
-        5.0, "autocorrelation times after which the sum ends", "convention: Sokal 1997", unit="times"
-    )
+    window: float = constant(5.0, "autocorrelation times at which the sum ends", "convention: Sokal 1997", unit="times")
     rows_at_once: int = constant(20_000, "summed at a time, in double precision", "judgement: memory", unit="rows")
     names_for_a_curve: int = constant(
         3, "in place of one free curve, at most", "judgement: more are a curve", unit="causes"

@@ -13,7 +13,7 @@ from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.so_far import stated_model
-from armscope.motion.fitting.weights import autocorrelation_time, noise_of
+from armscope.motion.fitting.weights import TorqueWeights, autocorrelation_time, noise_of
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
@@ -43,6 +43,18 @@ def left_of(noise: Array, X: Array) -> tuple[Array, Array]:
         held = block == number
         apart[held] = noise[held] - X[held] @ np.linalg.lstsq(X[~held], noise[~held], rcond=None)[0]
     return whole, apart
+
+
+def test_what_an_earlier_model_explained_is_no_noise_once_its_name_is_gone() -> None:
+    """Joint by joint; where noise grows by a little, or less is left though it lasts, the last model's counts."""
+    row = np.ones((10, 5))
+    calm = TorqueWeights(np.full(5, 0.2), np.full(5, 4.0), row)
+    now = TorqueWeights(np.array([0.5, 0.25, 0.1, 0.21, 0.19]), np.array([4.0, 4.0, 4.0, 20.0, 20.0]), 0.5 * row)
+    noise = now.not_far_above(calm)
+    assert noise.sigma.tolist() == [0.2, 0.25, 0.1, 0.2, 0.19]
+    assert noise.correlated.tolist() == [4.0, 4.0, 4.0, 4.0, 20.0]
+    assert noise.row[0].tolist() == [1.0, 0.5, 0.5, 1.0, 0.5]
+    assert now.not_far_above(None) is now
 
 
 def test_noise_that_a_fit_of_many_numbers_took_up_counts_all_the_same() -> None:

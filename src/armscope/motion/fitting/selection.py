@@ -77,6 +77,7 @@ def select_causes(
     model = model or stated_model(layout.arm)
     selected: SelectedCauses | None = None
     most, between = NOISE.rounds + NOISE.refinings, Between()
+    calm: TorqueWeights | None = None  # of each joint the round that left least of it
     for number in range(most):
         share = number / most
         before = None if selected is None else selected.rows
@@ -89,7 +90,9 @@ def select_causes(
         else:  # a scanned number that moves changes columns, and nothing of what competes
             space, found = selected.space, selected.best.candidates
         last = selected.best, selected.best.chosen
-        selected = at_own_gain(chosen(rows, selected.noise, block, space, last, selected))
+        noise = selected.noise
+        noise, calm = noise.not_far_above(calm), noise if calm is None else calm.where_better(noise)
+        selected = at_own_gain(chosen(rows, noise, block, space, last, selected))
         finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -44,9 +45,22 @@ class TorqueWeights:
 
     def where_better(self, other: TorqueWeights) -> TorqueWeights:
         """At each joint those of which less lasts."""
-        less = self.lasting <= other.lasting
+        return self._where(self.lasting <= other.lasting, other)
+
+    def not_far_above(self, calm: TorqueWeights | None) -> TorqueWeights:
+        """At each joint those of an earlier model where that left less, and much less that lasts.
+
+        A name that is barely not worth its price goes, what it explained counts as noise, and then nothing is worth a
+        price any more. But what another model explains, on other motion, too, is no noise.
+        """
+        if calm is None:
+            return self
+        own = (self.lasting <= NOISE.grown * calm.lasting) | (self.sigma <= calm.sigma)
+        return self._where(own, calm)
+
+    def _where(self, own: NDArray[np.bool_], other: TorqueWeights) -> TorqueWeights:
         pairs = ((self.sigma, other.sigma), (self.correlated, other.correlated), (self.row, other.row))
-        return TorqueWeights(*(np.where(less, one, two) for one, two in pairs))
+        return TorqueWeights(*(np.where(own, one, two) for one, two in pairs))
 
 
 def estimate_weights(rows: MotionRows, residuals: Array, elsewhere: Array | None = None) -> TorqueWeights:
