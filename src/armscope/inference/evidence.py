@@ -200,16 +200,17 @@ def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array
     added = np.concatenate([problem.prior_scale(effect) for effect in hypothesis.chosen]) ** 2
     rest = np.maximum(variance - added, 1e-12 * added)
     root = np.sqrt(1 / rest - 1 / variance)
-    M = hypothesis.noise**2 * (inverse.T @ inverse) * np.outer(root, root)
+    seen = hypothesis.noise * inverse * root
     pull, widened = root * hypothesis.mean[at], np.log(variance / rest)
     ends, lost = np.cumsum([len(columns) for columns in members]).tolist(), []
     for effect, start, end in zip(hypothesis.chosen, [0, *ends[:-1]], ends, strict=True):
         if end - start == 1:  # most of them: a number needs no LAPACK
-            inner = max(1.0, NUMERICS.rounding * M[start, start]) + M[start, start]
+            square = float(seen[:, start] @ seen[:, start])
+            inner = max(1.0, NUMERICS.rounding * square) + square
             quadratic, logdet = pull[start] ** 2 / inner, math.log(inner) - widened[start]
         else:
             own = slice(start, end)
-            factor = lower_cholesky(M[own, own], np.ones(end - start))
+            factor = lower_cholesky(seen[:, own].T @ seen[:, own], np.ones(end - start))
             quadratic = float((solve_lower(factor, pull[own]) ** 2).sum())
             logdet = float(2 * np.log(factor.diagonal()).sum() - widened[own].sum())
         lost.append(0.5 * quadratic + 0.5 * logdet - problem.cost(effect.candidate))
