@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
@@ -38,9 +39,10 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
     moved = motor_jacobians(state.fit.model, state.recordings) if at_fault else np.empty(0)
     sizes = [each.size * float(np.sqrt(np.mean(moved[each.motor - 1] ** 2))) for each in at_fault]
     together = sum(rms**2 for rms in sizes)
+    plays = _plays(state, [each.motor for each in at_fault])
     for scattered, rms in zip(at_fault, sizes, strict=True):
         location, lever = f"joint {scattered.motor}", moved[scattered.motor - 1]
-        play = _play(state, scattered.motor)
+        play = plays.get(scattered.motor)
         yield FoundEffect(
             effect="unknown",
             location=location,
@@ -104,24 +106,32 @@ def sides_by_order(recordings: Recordings, motor: int) -> Array:
     return sides
 
 
-def _play(state: DiagnosisState, motor: int) -> Parameter | None:
-    """The gap by which a motor stands apart after motion to either side, where the order of rows shows one clearly.
+def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]:
+    """The gaps by which motors stand apart after motion to either side, where the order of rows shows one clearly.
 
-    Fitted with all else, of which what follows the angle follows the side a little, too.
+    Each is fitted with all else, of which what follows the angle follows the side a little, too; and without the
+    others, for all of which the rows are summed up once.
     """
-    if state.recordings.approach is not None:
-        return None
+    if state.recordings.approach is not None or not motors:
+        return {}
     fit, sides = state.fit, np.zeros(state.recordings.motor_angles.shape)
-    sides[:, motor - 1] = sides_by_order(state.recordings, motor)
+    for motor in motors:
+        sides[:, motor - 1] = sides_by_order(state.recordings, motor)
     table = replace(state.recordings, approach=sides)
-    gap = next((placed for placed in BACKLASH.place(fit.model.arm, table) if placed.variant == "approach"), None)
-    if gap is None:
-        return None
-    layout = replace(fit.layout, terms=(*fit.layout.terms, *gap.terms))
+    gaps = [placed for placed in BACKLASH.place(fit.model.arm, table) if placed.variant == "approach"]
+    if not gaps:
+        return {}
+    terms = [*fit.layout.terms, *(term for gap in gaps for term in gap.terms)]
+    layout = replace(fit.layout, terms=tuple(terms))
     (sums,) = normal_equations_by_block(layout, fit.model, table, fit.weights, np.zeros(len(table), dtype=np.intp))
-    inverse = np.linalg.inv(sums.G + np.diag(np.append(fit.noise**2 * fit.precision, 0.0)))
-    size, stderr = float(inverse[-1] @ sums.b), fit.noise * float(np.sqrt(inverse[-1, -1]))
-    return Parameter("play", "rad", size, stderr) if size > TELLING.play_by_order * stderr else None
+    ridge, plays = np.diag(np.append(fit.noise**2 * fit.precision, 0.0)), {}
+    for number, gap in enumerate(gaps, len(fit.precision)):
+        at = np.append(np.arange(len(fit.precision)), number)
+        inverse = np.linalg.inv(sums.G[np.ix_(at, at)] + ridge)
+        size, stderr = float(inverse[-1] @ sums.b[at]), fit.noise * float(np.sqrt(inverse[-1, -1]))
+        if size > TELLING.play_by_order * stderr:
+            plays[Location.of(gap.location).index + 1] = Parameter("play", "rad", size, stderr)
+    return plays
 
 
 def _by_order(play: Parameter) -> str:
