@@ -195,13 +195,15 @@ def _unnamed(problem: Problem, hypothesis: Hypothesis) -> Iterator[int]:
     """
     space = problem.space
     named = [space.candidates[c.candidate] for c in hypothesis.chosen]
-    taken = {column for candidate in named for column in candidate.columns}
-    laws = {column for candidate in named if not candidate.is_curve for column in candidate.columns}
+    taken = {column for candidate in named for column in candidate.columns.tolist()}
+    laws = {column for candidate in named if not candidate.is_curve for column in candidate.columns.tolist()}
     taken_keys = {candidate.key for candidate in named}
     for family, size in zip(space.families, hypothesis.background, strict=True):
-        inside = set(family.columns) if size else set()
+        if not size:
+            continue
+        inside = set(family.columns.tolist())
         for number, candidate in enumerate(space.candidates):
-            columns = set(candidate.columns)
+            columns = set(candidate.columns.tolist())
             has_name = columns & (taken if family.is_priced else laws) or candidate.key in taken_keys
             if columns <= inside and not has_name:
                 yield number
