@@ -10,6 +10,9 @@ from typing import Any
 import numpy as np
 import yaml
 
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+
 ODD_BYTES = [
     *(b"", b"\x00", b"\xff\xfe", b"\xef\xbb\xbf", b"\x80", b"\x1b[31m", b"\r", b"\n\n", b"\t", b'"', b"'", b"\\"),
     *(b",", b";", b":", b"- ", b"#", b"&a ", b"*a", b"<<: *a", b"!!int ", b"!!python/none ", b"[", b"]", b"{", b"}"),
@@ -102,14 +105,14 @@ _MUTATIONS = (_flip, _drop, _double, _insert, _swap_word, _swap_word, _swap_word
 def tree_of(path: Path) -> Any:
     """The content of a YAML or JSON file."""
     text = path.read_text(encoding="utf-8")
-    return json.loads(text) if path.suffix == ".json" else yaml.safe_load(text)
+    return json.loads(text) if path.suffix == ".json" else yaml.load(text, Loader=_LOADER)
 
 
 def text_of(tree: Any, suffix: str) -> bytes:
     """A tree as a file; JSON with what Python writes for numbers that are none."""
     if suffix == ".json":
         return json.dumps(tree).encode()
-    return yaml.safe_dump(tree, sort_keys=False, allow_unicode=True).encode()
+    return yaml.dump(tree, Dumper=_DUMPER, sort_keys=False, allow_unicode=True).encode()
 
 
 def places(tree: Any, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:

@@ -55,7 +55,8 @@ def test_values_that_were_swapped_are_an_answer_or_one_error(name, data, tmp_pat
         place = data.draw(st.sampled_from(places(tree)))
         what = data.draw(st.sampled_from(["swap", "swap", "drop", "rename", "double"]))
         tree = changed(tree, place, what, data.draw(st.sampled_from(ODD_VALUES)))
-    path = tmp_path_factory.mktemp("tree") / f"bad{reader.suffix}"
+    path = tmp_path_factory.getbasetemp() / name / f"bad{reader.suffix}"
+    path.parent.mkdir(exist_ok=True)
     path.write_bytes(text_of(tree, reader.suffix))
     assert failure_of(name, path) == ""
 
@@ -67,51 +68,55 @@ def test_what_was_found_once_stays_mended(case, tmp_path):
     assert failure_of(case.parent.name, path) == ""
 
 
-def bomb(name):
-    """Small files that would take all time or memory."""
+def aliases():
     lists = "a: &a [1,2,3,4,5,6,7,8,9]\n"
     lists += "".join(f"{chr(98 + i)}: &{chr(98 + i)} [{','.join(['*' + chr(97 + i)] * 9)}]\n" for i in range(9))
+    return lists.encode()
+
+
+def many_joints():
     joints = "".join(
         f'<link name="l{i}"/><joint name="j{i}" type="continuous"><parent link="l{i}"/><child link="l{i + 1}"/></joint>'
         for i in range(3000)
     )
-    return {
-        "aliases": lists.encode(),
-        "deep lists": b"[" * 900_000,
-        "deep mappings": b'{"a":' * 180_000,
-        "long number": b"a: " + b"9" * 900_000,
-        "many numbers": b"k: [" + b"1.5, " * 170_000 + b"1]",
-        "many keys": b"".join(b"k%d: 1\n" % i for i in range(80_000)),
-        "sixties": b"a: " + b":".join([b"1"] * 400_000),
-        "long word": b"a" * 900_000,
-        "commas": b"," * 900_000,
-        "many columns": b",".join(b"q%d_rad" % i for i in range(90_000)) + b"\n" + b",".join([b"0"] * 90_000),
-        "quotation mark": b'q1_rad,x_mm,y_mm,z_mm\n"' + b"1,2\n" * 200_000,
-        "long rows": b"q1_rad,x_mm,y_mm,z_mm\n" + b"1,2,3,4\n" * 100_000,
-        "long name": b"q1_rad," + b"_" * 900_000 + b"\n1,2\n3,4\n",
-        "short lines": b"1 2 3 4\n" * 110_000,
-        "nulls": bytes(900_000),
-        "many joints": f'<robot name="a">{joints}<link name="l3000"/></robot>'.encode(),
-        "many rows": b"name: a\ndh:\n  joints:\n" + b"  - {a_mm: 1, alpha_deg: 90, d_mm: 1}\n" * 20_000,
-        "deep elements": b"<robot>" + b"<a>" * 200_000,
-        "entities": b'<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">'
-        + b"".join(b'<!ENTITY %c "%s">' % (98 + i, b"&%c;" % (97 + i) * 10) for i in range(9))
-        + b']><robot name="&j;"/>',
-    }[name]
+    return f'<robot name="a">{joints}<link name="l3000"/></robot>'.encode()
 
 
-BOMBS = [
-    *("aliases", "deep lists", "deep mappings", "long number", "many numbers", "many keys", "sixties", "long word"),
-    *("commas", "many columns", "quotation mark", "long rows", "nulls", "many joints", "deep elements", "entities"),
-    *("long name", "short lines", "many rows"),
-]
+def entities():
+    longer = b"".join(b'<!ENTITY %c "%s">' % (98 + i, b"&%c;" % (97 + i) * 10) for i in range(9))
+    return b'<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa">' + longer + b']><robot name="&j;"/>'
+
+
+BOMBS = {
+    "aliases": aliases,
+    "deep lists": lambda: b"[" * 900_000,
+    "deep mappings": lambda: b'{"a":' * 180_000,
+    "long number": lambda: b"a: " + b"9" * 900_000,
+    "many numbers": lambda: b"k: [" + b"1.5, " * 170_000 + b"1]",
+    "many keys": lambda: b"".join(b"k%d: 1\n" % i for i in range(80_000)),
+    "sixties": lambda: b"a: " + b":".join([b"1"] * 400_000),
+    "long word": lambda: b"a" * 900_000,
+    "commas": lambda: b"," * 900_000,
+    "many columns": lambda: b",".join(b"q%d_rad" % i for i in range(90_000)) + b"\n" + b",".join([b"0"] * 90_000),
+    "quotation mark": lambda: b'q1_rad,x_mm,y_mm,z_mm\n"' + b"1,2\n" * 200_000,
+    "long rows": lambda: b"q1_rad,x_mm,y_mm,z_mm\n" + b"1,2,3,4\n" * 100_000,
+    "nulls": lambda: bytes(900_000),
+    "many joints": many_joints,
+    "deep elements": lambda: b"<robot>" + b"<a>" * 200_000,
+    "entities": entities,
+    "long name": lambda: b"q1_rad," + b"_" * 900_000 + b"\n1,2\n3,4\n",
+    "short lines": lambda: b"1 2 3 4\n" * 110_000,
+    "many rows": lambda: b"name: a\ndh:\n  joints:\n" + b"  - {a_mm: 1, alpha_deg: 90, d_mm: 1}\n" * 20_000,
+}
+"""Small files that would take all time or memory, made when they are asked for."""
 
 
 @pytest.mark.parametrize("kind", BOMBS)
 def test_a_file_below_a_megabyte_takes_bounded_time_and_memory(kind, tmp_path):
+    content = BOMBS[kind]()
     for name, reader in READERS.items():
         path = tmp_path / f"{name}-bomb{reader.suffix}"
-        path.write_bytes(bomb(kind))
+        path.write_bytes(content)
         assert failure_of(name, path) == "", name
 
 
