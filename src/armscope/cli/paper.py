@@ -94,7 +94,6 @@ def fit(
     """Fit the error models to every robot of a table by particle swarm, with many seeds."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
     from armscope.errormodels.swarm_fit import fit_swarms
-    from armscope.paper import method
 
     chosen = parsed(SwarmStudySettings, settings)
     measurements, swarm = read_measurements(poses, errors), chosen.swarm
@@ -102,6 +101,8 @@ def fit(
     basis: str = swarm.basis
     layout: str = swarm.layout
     if as_printed:
+        from armscope.paper import method  # imports the claims, which takes as long as half a fit
+
         how, basis, layout = method.as_printed(how), method.PRINTED_BASIS, method.PRINTED_LAYOUT
     fits = []
     for model in specs_of(chosen.models):

@@ -94,10 +94,9 @@ def tell(line: str) -> None:
 
 def read_measurements(poses: Path, *errors: Path) -> Measurements:
     """The measurements of a study; several tables of errors follow each other."""
-    from armscope.compensation.closed_loop import ERROR_COLUMNS
     from armscope.core.files import read_table
     from armscope.paper.measurements import Measurements
-    from armscope.recordings.columns import AXES_MM
+    from armscope.recordings.columns import AXES_MM, ERROR_COLUMNS
 
     at = read_table(poses, ["trajectory", "point", "q1_rad", *AXES_MM], "the table poses.csv of a study")
     left = read_tables(errors, ["robot", "trajectory", "point", *ERROR_COLUMNS], "the table errors.csv of a study")

@@ -16,11 +16,10 @@ from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel, predict, predict_orientation
-from armscope.recordings.columns import angle_columns
+from armscope.recordings.columns import ERROR_COLUMNS, angle_columns
 from armscope.recordings.table import unmeasured
 from armscope.robot import Arm
 
-ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 NO_MODEL = "Uncompensated"
 """The negative control: the nominal commands."""
 

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.compensation.closed_loop import ERROR_COLUMNS
 from armscope.core.types import Array
 from armscope.errormodels.features import ModelSpec
 from armscope.errormodels.swarm_fit import FitProblem
 from armscope.paper.printed import IDENTIFICATION
-from armscope.recordings.columns import AXES_MM, angle_columns
+from armscope.recordings.columns import AXES_MM, ERROR_COLUMNS, angle_columns
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,6 +32,8 @@ ALIKE = 0.75
 """Likeness (0 to 1) from which a column that is not known is taken for a misspelt one: "payload" for "payload_kg"."""
 
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
+ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
+"""Of the tool point, measured minus nominal, in tables of studies."""
 QUATERNION = ["qw", "qx", "qy", "qz"]
 
 UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}

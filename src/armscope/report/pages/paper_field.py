@@ -6,10 +6,11 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from armscope.compensation.closed_loop import ERROR_COLUMNS, NO_MODEL
+from armscope.compensation.closed_loop import NO_MODEL
 from armscope.core.types import Array
 from armscope.paper.measurements import pose_arrays
 from armscope.paper.printed import IDENTIFICATION
+from armscope.recordings.columns import ERROR_COLUMNS
 from armscope.report.figures.error_field import ErrorField, turnable
 from armscope.robot import Arm
 
