@@ -207,7 +207,12 @@ def test_help_says_how_to_start():
     assert CliRunner().invoke(app, ["--version"]).output.startswith("armscope ")
 
 
-@pytest.fixture(params=["left-handed", "metres", "reverse order"])
+MISTAKES = ["left-handed", "metres", "reverse order"]
+ONE_MISTAKE = [MISTAKES[0], *(pytest.param(each, marks=pytest.mark.long) for each in MISTAKES[1:])]
+"""That each is told is asked of `diagnose --anyway`, and of the check itself in `tests/check/`."""
+
+
+@pytest.fixture
 def mistaken(request, tmp_path):
     """The example's recordings with a mistake that the reader cannot see; its file and a word that names it."""
     table = pd.read_csv(RECORDINGS)
@@ -222,6 +227,7 @@ def mistaken(request, tmp_path):
     return tmp_path / "mistaken.csv", request.param
 
 
+@pytest.mark.parametrize("mistaken", ONE_MISTAKE, indirect=True)
 def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_for(mistaken, tmp_path):
     file, word = mistaken
     error = error_of("calibrate BAD -r ROBOT -o OUT --splits 0", BAD=file, OUT=tmp_path / "out")
@@ -236,6 +242,7 @@ def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_
 QUICK = "--resamples 0 --no-cross-validation --no-report"
 
 
+@pytest.mark.parametrize("mistaken", ONE_MISTAKE, indirect=True)
 def test_a_diagnosis_of_mistaken_recordings_is_not_made_unless_asked_for(mistaken, tmp_path):
     """One judgement of a table, the check's: what it calls a problem ends a diagnosis, and nothing is written."""
     file, word = mistaken
@@ -246,6 +253,7 @@ def test_a_diagnosis_of_mistaken_recordings_is_not_made_unless_asked_for(mistake
     assert not (tmp_path / "out" / "verdict.json").exists()
 
 
+@pytest.mark.parametrize("mistaken", MISTAKES, indirect=True)
 def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistaken, tmp_path):
     file, word = mistaken
     line = f"diagnose {file} -r {ROBOT} -o {tmp_path / 'out'} {QUICK} --anyway"

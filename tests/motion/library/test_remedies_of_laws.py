@@ -12,8 +12,7 @@ from armscope.core.types import Array
 from armscope.motion.library import remedies_of_laws
 from armscope.motion.library.catalogue import cause_named
 from tests.motion.cured import JOINT, STATED, Motion, Torque, as_it_is, at_joint, diagnosed, left, told
-
-SEEDS = (11, 14)
+from tests.seeds import seeds
 
 
 @dataclass(frozen=True)
@@ -125,7 +124,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", seeds(11, 14))
 @pytest.mark.parametrize("kind", [*CASES])
 def test_who_adds_what_the_card_says_has_the_torque(kind: str, seed: int) -> None:
     case = CASES[kind]
