@@ -75,14 +75,15 @@ def _run(model: mujoco.MjModel, named: tuple[str, int], rng: np.random.Generator
     every = round(1 / RATE_HZ / STEP_S)
     data.qpos[dofs], data.qvel[dofs] = q[0], dq[0]
     stiff, damped = np.array([4e3, 8e3, 2e3]), np.array([200.0, 400.0, 60.0])
+    friction = VISCOUS * dq + COULOMB * np.tanh(dq / 0.02)  # what it takes, so that the path is followed
+    position, speed, applied = data.qpos, data.qvel, data.qfrc_applied  # views: asking for one takes as long as a step
     rows = []
     for k in range(len(time)):
-        torque = stiff * (q[k] - data.qpos[dofs]) + damped * (dq[k] - data.qvel[dofs])
-        torque += VISCOUS * dq[k] + COULOMB * np.tanh(dq[k] / 0.02)  # what friction takes, so that the path is followed
-        data.qfrc_applied[dofs] = torque
+        torque = stiff * (q[k] - position[dofs]) + damped * (dq[k] - speed[dofs]) + friction[k]
+        applied[dofs] = torque
         if k % every == 0:
-            twist = float(data.qpos[behind].sum())
-            rows.append([time[k], *data.qpos[dofs], data.qpos[dofs[joint - 1]] + twist, *torque])
+            twist = float(position[behind].sum())
+            rows.append([time[k], *position[dofs], position[dofs[joint - 1]] + twist, *torque])
         mujoco.mj_step(model, data)
     names = ["time_s", "q1_rad", "q2_rad", "q3_rad", f"q{joint}_link_rad", "tau1_nm", "tau2_nm", "tau3_nm"]
     table = pd.DataFrame(rows, columns=names)

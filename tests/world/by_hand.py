@@ -82,10 +82,16 @@ class HandArm:
 
     def moment(self, motors: np.ndarray, payload: float, about: np.ndarray, from_link: int) -> np.ndarray:
         """Gravity's moment about a point, of everything from a link (0-based) on."""
-        return sum(np.cross(place - about, weight) for place, weight in self.loads(motors, payload, from_link))
+        return moment_of(self.loads(motors, payload, from_link), about)
 
     def torques(self, motors: np.ndarray, payload: float) -> np.ndarray:
         """Gravity's torque on the motors, by virtual work."""
         carrying, _ = self.frames(self.actuation @ motors)
-        chain = [self.moment(motors, payload, f[:3, 3], j) @ f[:3, 2] for j, f in enumerate(carrying)]
+        loads = self.loads(motors, payload)
+        chain = [moment_of(loads[j:], f[:3, 3]) @ f[:3, 2] for j, f in enumerate(carrying)]
         return self.actuation.T @ np.array(chain)
+
+
+def moment_of(loads: list[tuple[np.ndarray, np.ndarray]], about: np.ndarray) -> np.ndarray:
+    """The moment about a point of weights at their places."""
+    return sum(np.cross(place - about, weight) for place, weight in loads)
