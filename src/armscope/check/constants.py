@@ -28,6 +28,13 @@ class TrialRules(Constants):
         "judgement: the right one settles in fewer, a wrong one need not settle",
         unit="steps",
     )
+    first_steps: int = constant(
+        1, "of them after which most trials end", "measured: 400 tables, told as by all steps", unit="steps"
+    )
+    refined: int = constant(8, "trials that go on in any case", "judgement: some mistakes look alike", unit="trials")
+    far: float = constant(
+        0.25, "share left after the first steps up to which all go on", "judgement: five times what fits leaves"
+    )
     fits: float = constant(
         0.05,
         "share of the points' spread that base and tool leave at most where a table fits an arm",

@@ -14,7 +14,7 @@ import numpy as np
 from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
-from armscope.check.common_mistakes import trials
+from armscope.check.common_mistakes import Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
@@ -118,10 +118,10 @@ def _share_left(rows: SetUp, state: State) -> float:
     return max(too_long, *(float(np.median(distance[of_run])) / spread for of_run in runs if of_run.any()))
 
 
-def _tried(arm: Arm, table: Recordings) -> tuple[float, float]:
-    """Share left and spread (m) of a table, base and tool fitted."""
+def _tried(arm: Arm, table: Recordings, steps: int = TRIALS.steps) -> tuple[float, float]:
+    """Share left and spread (m) of a table, base and tool fitted by so many steps at most."""
     rows = set_up(arm, _spread_evenly(table))
-    state = placed(rows, TRIALS.steps)
+    state = placed(rows, steps)
     return _share_left(rows, state), max(_spread(table), _predicted_spread(rows, state))
 
 
@@ -155,7 +155,7 @@ def _fails_alone(arm: Arm, of_run: Recordings) -> bool:
 
 def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     share, spread = _tried(arm, table)
-    tried = [(_tried(trial.arm(arm), trial.undo(table))[0], trial) for trial in trials(arm)]
+    tried = _all_tried(arm, table)
     least = min(left for left, _ in tried)
     if least < min(TRIALS.fits, TRIALS.clearly_better * share):
         best, *others = [trial for left, trial in tried if left <= TRIALS.as_good * least]
@@ -173,6 +173,17 @@ def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
         "Is it another robot, are angles and points of different rows, or is a joint's zero far off?",
         WRONG_ROBOT,
     )
+
+
+def _all_tried(arm: Arm, table: Recordings) -> list[tuple[float, Trial]]:
+    """The share that is left with each mistake undone: by a few steps, and by all where that is near enough to matter.
+
+    From a start in closed form, what explains the points is near after one step. Most mistakes were not made.
+    """
+    tried = [(_tried(trial.arm(arm), trial.undo(table), TRIALS.first_steps)[0], trial) for trial in trials(arm)]
+    nearest = sorted(left for left, _ in tried)[: TRIALS.refined]
+    limit = max(nearest[-1], TRIALS.far)
+    return [(_tried(trial.arm(arm), trial.undo(table))[0] if left <= limit else left, trial) for left, trial in tried]
 
 
 def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
