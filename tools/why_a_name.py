@@ -22,8 +22,8 @@ from matplotlib.figure import Figure
 
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import NAMING
-from armscope.diagnosis.earning import held_out_gains, without_members
 from armscope.diagnosis.held_out import split_rows
+from armscope.diagnosis.held_out_worth import held_out_gains, without_members
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import Selected
 from armscope.fitting.linearisation import LinearisedTable

@@ -7,7 +7,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.diagnosis.curve_shapes import DRIVE
-from armscope.diagnosis.promotion import _better_placed
+from armscope.diagnosis.naming import _better_placed
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis.model_space import EffectSpace
-from armscope.diagnosis.promotion import _promoted, named
+from armscope.diagnosis.naming import _promoted, named
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations

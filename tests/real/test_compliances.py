@@ -20,7 +20,7 @@ from armscope.real.compliances import (
     gravity_as_recorded,
 )
 from armscope.real.reference import ReferenceCompliances
-from armscope.real.rehearsal import draw, record, rehearse
+from armscope.real.simulated_comparison import compare_on_simulated_arms, draw_arm, simulate_recordings
 from armscope.recordings import Recordings
 from armscope.robot import chain
 from armscope.robot.gravity import gravity_torques
@@ -69,7 +69,7 @@ def test_masses_are_as_heavy_as_the_torques_say_whatever_is_carried(runs):
 
 def test_one_arm_agrees_with_itself_and_a_softer_one_does_not(runs):
     arm, everywhere, two = runs
-    found = rehearse(arm, everywhere, two, (2, 4), arms=4, seed=3).set_index("arm")
+    found = compare_on_simulated_arms(arm, everywhere, two, (2, 4), arms=4, seed=3).set_index("arm")
     assert found.loc["the same arm", "agree"] == 4
     assert found.loc["an arm 15 % softer", "agree"] == 0
     assert (found["held"] >= 0.8 * found["numbers"]).all()
@@ -78,8 +78,8 @@ def test_one_arm_agrees_with_itself_and_a_softer_one_does_not(runs):
 def test_a_run_of_two_joints_knows_that_it_cannot_tell_drives_apart(runs):
     arm, everywhere, two = runs
     rng = np.random.default_rng(5)
-    drawn = draw(arm, everywhere, rng)
-    one, other = (fit_give(arm, record(arm, each, drawn, 1.0, rng), "x") for each in (everywhere, two))
+    drawn = draw_arm(arm, everywhere, rng)
+    one, other = (fit_give(arm, simulate_recordings(arm, each, drawn, 1.0, rng), "x") for each in (everywhere, two))
     assert one.stderr[3] < 0.5 * PRIOR
     assert other.stderr[3] > 0.5 * PRIOR
     # joint 1 turns about gravity's line: no load, nothing learned
@@ -130,8 +130,8 @@ def test_a_combination_is_told_by_its_largest_weights():
 def test_tables_hold_every_run_and_every_pair(runs):
     arm, everywhere, two = runs
     rng = np.random.default_rng(7)
-    drawn = draw(arm, everywhere, rng)
-    one, other = (record(arm, each, drawn, 1.0, rng) for each in (everywhere, two))
+    drawn = draw_arm(arm, everywhere, rng)
+    one, other = (simulate_recordings(arm, each, drawn, 1.0, rng) for each in (everywhere, two))
     arrays = {name: value for name, value in vars(one).items() if isinstance(value, np.ndarray)}
     joined = replace(one, **{name: np.concatenate([value, getattr(other, name)]) for name, value in arrays.items()})
     stated = ReferenceCompliances(

@@ -14,7 +14,7 @@ from armscope.core.provenance import sources
 from armscope.proof.reading import ALLOWED
 from armscope.proof.truth import unsealed
 from armscope.real.making import Places, make_altered, make_original, make_withheld
-from armscope.real.staging import stage, with_payload
+from armscope.real.prepared_recordings import prepared_recordings, with_payload
 from armscope.recordings import as_recordings
 from armscope.recordings.columns import AXES_MM, QUATERNION
 from tests.real.recorded import ROBOT, arm, table
@@ -30,7 +30,7 @@ def places(folder):
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("made")
-    mine = stage(arm(), table(noise_mm=0.02), 1000)
+    mine = prepared_recordings(arm(), table(noise_mm=0.02), 1000)
     for attempt in ("first", "second"):
         make_altered(mine, EFFECTS, (1.0, 3.0), 1e-4, (7,), places(folder / attempt))
     make_original(mine, places(folder / "original"))
@@ -52,7 +52,7 @@ def test_only_recordings_robot_and_poses_without_readings_are_visible(made):
 
 
 def test_measured_orientations_turn_with_the_points(tmp_path):
-    mine = stage(arm(), table(turn_noise_rad=1e-4), 1000)
+    mine = prepared_recordings(arm(), table(turn_noise_rad=1e-4), 1000)
     make_altered(mine, ("joint_coupling",), (3.0,), 1e-4, (7,), places(tmp_path))
     (world,) = (tmp_path / "visible").iterdir()
     after = as_recordings(pd.read_csv(world / "recordings.csv"), "after", 6)
@@ -87,9 +87,9 @@ def test_every_effect_stands_at_every_size_in_the_archive(made):
 
 def test_what_is_withheld_is_gone_and_what_was_not_recorded_is_not_withheld(tmp_path):
     load = table(torque=lambda q: np.sin(q), run="loaded").assign(payload_kg=2.0)
-    loaded = stage(arm(), with_payload(pd.concat([load, table(run="other")])), 1000)
+    loaded = prepared_recordings(arm(), with_payload(pd.concat([load, table(run="other")])), 1000)
     assert loaded.targets == ("loaded",)
-    make_withheld({"payloads": loaded, "run": stage(arm(), table(), 1000)}, places(tmp_path))
+    make_withheld({"payloads": loaded, "run": prepared_recordings(arm(), table(), 1000)}, places(tmp_path))
     truths = {world: truth for world, (truth, _) in unsealed(tmp_path / "sealed.tar.gz").items()}
     assert [t["withheld"] for t in truths.values() if t["rows"] == "run"] == ["all columns"]
     for world, truth in truths.items():
@@ -100,7 +100,7 @@ def test_what_is_withheld_is_gone_and_what_was_not_recorded_is_not_withheld(tmp_
 
 def test_columns_are_withheld_with_orientations_and_without_but_never_shown_of_test_rows(tmp_path):
     rows = table(torque=lambda q: np.sin(q), turn_noise_rad=1e-3)
-    make_withheld({"run": stage(arm(), rows, 1000)}, places(tmp_path))
+    make_withheld({"run": prepared_recordings(arm(), rows, 1000)}, places(tmp_path))
     truths = {world: truth for world, (truth, _) in unsealed(tmp_path / "sealed.tar.gz").items()}
     cases = {(truth["withheld"], truth["orientations"]) for truth in truths.values()}
     assert cases == {(what, oriented) for what in ("all columns", "torques withheld") for oriented in (True, False)}

@@ -164,9 +164,9 @@ def test_runs_whose_compliances_do_not_agree_are_named(arm_, tmp_path):
         for of, stderr in (("drive 2 + 0.5 drive 4", 10.0), ("drive 3", 30.0))
     ]
     write_table(arm_.folder / "compliances_agree.csv", pd.DataFrame(pairs))
-    rehearsed = {"learned": "points alone", "one": "a", "other": "b", "arms": 9, "numbers": 20, "held": 19}
-    kinds = [rehearsed | {"arm": "the same arm", "agree": 8}, rehearsed | {"arm": "a softer one", "agree": 1}]
-    write_table(arm_.folder / "compliances_rehearsed.csv", pd.DataFrame(kinds))
+    simulated = {"learned": "points alone", "one": "a", "other": "b", "arms": 9, "numbers": 20, "held": 19}
+    kinds = [simulated | {"arm": "the same arm", "agree": 8}, simulated | {"arm": "a softer one", "agree": 1}]
+    write_table(arm_.folder / "compliances_simulated.csv", pd.DataFrame(kinds))
     text = page(arm_, tmp_path)
     assert "drives on a: joint 2 61 ± 21 (others: 62.5)." in text
     assert "1 of 2 pairs of runs agree, **these do not: a and c**" in text

@@ -101,7 +101,7 @@ rule compliances_real:
         robot=robot_of,
         reference=lambda wildcards: CONFIG.real[wildcards.set].reference,
     output:
-        expand(f"{RESULTS}/real/{{{{set}}}}/compliances{{table}}.csv", table=("", "_agree", "_rehearsed")),
+        expand(f"{RESULTS}/real/{{{{set}}}}/compliances{{table}}.csv", table=("", "_agree", "_simulated")),
     params:
         folder=subpath(output[0], parent=True),
         seed=CONFIG.seed,

@@ -88,14 +88,14 @@ def compliances(
     robot: ItsRobot,
     reference: Stated,
     output: Output,
-    arms: Annotated[int, typer.Option(help="simulated arms on which the comparison is rehearsed")] = 40,
+    arms: Annotated[int, typer.Option(help="simulated arms on which the comparison is tried")] = 40,
     seed: Annotated[int, typer.Option(min=0, help="of the simulated arms")] = 0,
 ) -> None:
     """Do the drives' compliances agree between runs? Values, agreement, and the same on simulated arms."""
     from armscope.core.files import write_table
     from armscope.real.compliance_tables import compare_runs
     from armscope.real.reference import load_reference
-    from armscope.real.rehearsal import rehearse_runs
+    from armscope.real.simulated_comparison import compare_simulated_runs
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
@@ -108,7 +108,7 @@ def compliances(
     values, pairs = compare_runs(arm, table, stated, _tell)
     write_table(output / "compliances.csv", values, digits=6)
     write_table(output / "compliances_agree.csv", pairs, digits=6)
-    write_table(output / "compliances_rehearsed.csv", rehearse_runs(arm, table, stated, arms, seed))
+    write_table(output / "compliances_simulated.csv", compare_simulated_runs(arm, table, stated, arms, seed))
 
 
 @app.command()
@@ -124,21 +124,23 @@ def plant(
 ) -> None:
     """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
     from armscope.real.making import Places, make_altered, make_original, make_withheld
+    from armscope.real.prepared_recordings import of_run, prepared_recordings, with_payload
     from armscope.real.settings import PlantSettings
-    from armscope.real.staging import of_run, stage, with_payload
     from armscope.recordings.textfile import read_text_table
     from armscope.robot import load_arm
     from armscope.verdict.files import read_verdict
 
     chosen = parsed(PlantSettings, settings)
     arm, table, places = load_arm(robot), read_text_table(recordings), Places(robot, visible, sealed)
-    mine = stage(arm, of_run(table, chosen.run, chosen.first_id), chosen.most_rows, str(recordings))
+    mine = prepared_recordings(arm, of_run(table, chosen.run, chosen.first_id), chosen.most_rows, str(recordings))
     if part == "original":
         make_original(mine, places)
     elif part == "withheld":
         loaded = with_payload(table)
-        stages = {"run": mine} | ({"payloads": stage(arm, loaded, chosen.most_rows)} if len(loaded) else {})
-        make_withheld(stages, places)
+        by_name = {"run": mine} | (
+            {"payloads": prepared_recordings(arm, loaded, chosen.most_rows)} if len(loaded) else {}
+        )
+        make_withheld(by_name, places)
     else:
         if verdict is None:
             raise InputError("--verdict", "", "nothing", "effects are sized by what the original's verdict leaves")

@@ -106,7 +106,7 @@ class LoopBudget(Constants):
         "so many",
         unit="rows",
     )
-    times_brought_back: int = constant(
+    rounds_of_outliers: int = constant(
         3, "that such rows are looked at", "judgement: as many jumps, one after the other; time", unit="times"
     )
     still_apart: float = constant(

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.diagnosis.constants import FOLDING
-from armscope.diagnosis.earning import held_out_errors
+from armscope.diagnosis.held_out_worth import held_out_errors
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis

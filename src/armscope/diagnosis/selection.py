@@ -11,8 +11,8 @@ import numpy as np
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.rows_brought_back import BringingBack
 from armscope.diagnosis.state import Selected
+from armscope.diagnosis.sustained_outliers import SelectionWithSustainedOutliers
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import best_additions
 from armscope.inference.search import Search
@@ -45,11 +45,11 @@ def select(
         The selection with its problem, model, weights and sums per block.
     """
     if len(table) <= LOOP.sample_rows:
-        return BringingBack(start, table, noise, frames, block_of_row, progress).run()
+        return SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress).run()
     rows = some_rows(table.recordings, LOOP.sample_rows, LOOP.rows_of_a_group)
-    small = BringingBack(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
+    small = SelectionWithSustainedOutliers(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
     found = small.run(of_a_sample=True)
-    whole = BringingBack(start, table, noise, frames, block_of_row, progress)
+    whole = SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress)
     whole.follow(small, _promising(found))
     progress("weighing all rows", 0.45)
     whole.round((found.best.background,), last=True)

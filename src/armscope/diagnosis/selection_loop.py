@@ -11,9 +11,10 @@ from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
-from armscope.diagnosis.impossible import impossible
+from armscope.diagnosis.implausible import implausible_effects
+from armscope.diagnosis.kept_effects import kept_effects
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
-from armscope.diagnosis.promotion import named
+from armscope.diagnosis.naming import named
 from armscope.diagnosis.round_state import RoundState
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
@@ -21,7 +22,6 @@ from armscope.diagnosis.scans.context import ScanContext, few_rows
 from armscope.diagnosis.scans.new_candidates import scanned_candidates
 from armscope.diagnosis.sizes_of_waves import GEARS, freedom_of_waves, with_sizes_of_rows
 from armscope.diagnosis.state import Selected
-from armscope.diagnosis.what_stands import what_stands
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
 from armscope.fitting.linearisation import Measured, linearised, residuals
@@ -212,7 +212,7 @@ class SelectionLoop:
     def _fit(self, best: Hypothesis, of_all: bool = False) -> None:
         """The exact fit of the names, without those that no arm can have."""
         self.best, self.fit = best, self._fitted(best, of_all)
-        while none_has := impossible(self.problem, self.space, self.best, self.fit):
+        while none_has := implausible_effects(self.problem, self.space, self.best, self.fit):
             self.best = Search.on(self.problem).without(self.best, none_has)
             self.fit = self._fitted(self.best, of_all)
 
@@ -242,7 +242,7 @@ class SelectionLoop:
             finer: whether gears have finer waves in the last fit, which no search could afford.
         """
         wander = self.families[FAMILIES.index(DRIFT)]
-        left = what_stands(self.problem, self.blocks, self.best, self.space, wander)
+        left = kept_effects(self.problem, self.blocks, self.best, self.space, wander)
         waves = self._waves(left, finer)
         if self.summed or left is not self.best or waves != self.families[GEARS]:
             self.families[GEARS] = waves

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.diagnosis.earning import errors_of_fits
+from armscope.diagnosis.held_out_worth import errors_of_fits
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.constants import SIZES_BY_GROUP
 from armscope.inference.evidence import Hypothesis, evaluate

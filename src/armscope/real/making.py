@@ -20,8 +20,8 @@ from scipy.spatial.transform import Rotation
 from armscope.core.files import copy_file, write_table, write_yaml
 from armscope.proof.making import TEST_POSES, sealing
 from armscope.real.planting import CannotPlantError, NotPlanted, Planted, plant, truth_of
-from armscope.real.staging import Stage
-from armscope.real.theatre import Theatre
+from armscope.real.prepared_recordings import PreparedRecordings
+from armscope.real.simulated_effects import SimulatedEffects
 from armscope.recordings.columns import AXES_MM, QUATERNION
 
 
@@ -44,28 +44,33 @@ WITHHELD: dict[str, tuple[str, ...]] = {
 
 
 def _write_world(
-    home: Path, places: Places, stage: Stage, table: pd.DataFrame, truth: dict[str, Any], planted: Planted | None = None
+    home: Path,
+    places: Places,
+    prepared: PreparedRecordings,
+    table: pd.DataFrame,
+    truth: dict[str, Any],
+    planted: Planted | None = None,
 ) -> None:
     """One world: its visible files in the visible tree, its truth below ``home``."""
     visible = places.visible / home.name
     copy_file(places.robot, visible / "robot.yaml")
-    write_table(visible / "recordings.csv", table.iloc[stage.train])
-    test = table.iloc[stage.test]
+    write_table(visible / "recordings.csv", table.iloc[prepared.train])
+    test = table.iloc[prepared.test]
     write_table(visible / TEST_POSES, test.drop(columns=[*AXES_MM, *QUATERNION], errors="ignore"))
-    left = np.zeros((len(test), 3)) if planted is None else planted.left[stage.test] * 1e3
+    left = np.zeros((len(test), 3)) if planted is None else planted.left[prepared.test] * 1e3
     readings = pd.concat([test[AXES_MM].reset_index(drop=True), pd.DataFrame(left, columns=LEFT_MM)], axis=1)
     write_table(home / "sealed" / "test.csv", readings)
     write_yaml(home / "sealed" / "truth.yaml", truth)
 
 
-def make_original(stage: Stage, places: Places) -> None:
+def make_original(prepared: PreparedRecordings, places: Places) -> None:
     """The recordings as they are, with the columns that all altered ones have, too."""
     with sealing(places.visible, places.sealed) as made:
-        _write_world(made / "original", places, stage, stage.table, {"kind": "original"})
+        _write_world(made / "original", places, prepared, prepared.table, {"kind": "original"})
 
 
 def make_altered(
-    stage: Stage,
+    prepared: PreparedRecordings,
     effects: Sequence[str],
     sizes: Sequence[float],
     level: float,
@@ -75,25 +80,25 @@ def make_altered(
     """Every effect at every size.
 
     Args:
-        stage: the arm's rows.
+        prepared: the arm's rows.
         effects: keys of the worlds' catalogue.
         sizes: RMS at the tool in multiples of the level.
         level: what the diagnosis of the original leaves, RMS per axis, m.
         seed: places and numbers follow from it.
         places: where everything goes.
     """
-    theatre = Theatre(stage)
-    judge = theatre.judge()
+    simulated = SimulatedEffects(prepared)
+    judge = simulated.judge()
     made: list[tuple[dict[str, Any], Planted]] = []
     skipped = []
     for number, name in enumerate(effects):
         rng = np.random.default_rng([*seed, number])
         try:
-            for each in plant(theatre, judge, name, sizes, level, rng):
+            for each in plant(simulated, judge, name, sizes, level, rng):
                 if isinstance(each, NotPlanted):
                     skipped.append({"effect": name, "size": each.size, "reason": each.reason})
                 else:
-                    made.append((truth_of(theatre, each), each))
+                    made.append((truth_of(simulated, each), each))
         except CannotPlantError as error:
             skipped += [{"effect": name, "size": size, "reason": str(error)} for size in sizes]
     with sealing(places.visible, places.sealed) as folder:
@@ -101,16 +106,16 @@ def make_altered(
         for place, (truth, planted) in zip(order.tolist(), made, strict=True):
             content = {"kind": "altered", **truth, "level_mm": level * 1e3, "skipped": skipped}
             home = folder / f"world-{place:03d}"
-            _write_world(home, places, stage, moved_table(stage, planted), content, planted)
+            _write_world(home, places, prepared, moved_table(prepared, planted), content, planted)
 
 
-def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
+def moved_table(prepared: PreparedRecordings, planted: Planted) -> pd.DataFrame:
     """The recordings with every measured point, and orientation, moved by what the effect does there."""
-    points = stage.table[AXES_MM].to_numpy(dtype=float) + planted.moved * 1e3
-    table = stage.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
-    if not stage.recordings.oriented.any():
+    points = prepared.table[AXES_MM].to_numpy(dtype=float) + planted.moved * 1e3
+    table = prepared.table.assign(**{name: points[:, axis].round(5) for axis, name in enumerate(AXES_MM)})
+    if not prepared.recordings.oriented.any():
         return table
-    quaternions = stage.recordings.quaternions.copy()
+    quaternions = prepared.recordings.quaternions.copy()
     known = np.isfinite(quaternions).all(axis=1)
     measured = Rotation.from_quat(quaternions[known], scalar_first=True)
     turned = Rotation.from_matrix(planted.turned[known]) * measured
@@ -118,22 +123,24 @@ def moved_table(stage: Stage, planted: Planted) -> pd.DataFrame:
     return table.assign(**{name: quaternions[:, k].round(9) for k, name in enumerate(QUATERNION)})
 
 
-def make_withheld(stages: Mapping[str, Stage], places: Places) -> None:
-    """Recordings without the columns that say how loaded the arm was; ``stages`` by what to call their rows.
+def make_withheld(by_name: Mapping[str, PreparedRecordings], places: Places) -> None:
+    """Recordings without the columns that say how loaded the arm was; ``by_name`` by what to call their rows.
 
     Where orientations were measured, each case is made without these, too.
     """
     with sealing(places.visible, places.sealed) as folder:
-        for name, stage in stages.items():
-            turns = _measured_turns(stage.table)
+        for name, prepared in by_name.items():
+            turns = _measured_turns(prepared.table)
             cases = itertools.product((False, True) if turns else (False,), WITHHELD.items())
             for number, (oriented, (what, prefixes)) in enumerate(cases):
-                gone = [[c for c in map(str, stage.table) if c.startswith(prefix)] for prefix in prefixes]
+                gone = [[c for c in map(str, prepared.table) if c.startswith(prefix)] for prefix in prefixes]
                 if not all(gone):
                     continue  # not recorded: nothing to withhold
                 left_out = [*itertools.chain.from_iterable(gone), *([] if oriented else turns)]
                 truth = {"kind": "withheld", "rows": name, "withheld": what, "orientations": oriented}
-                _write_world(folder / f"{name}-{number}", places, stage, stage.table.drop(columns=left_out), truth)
+                _write_world(
+                    folder / f"{name}-{number}", places, prepared, prepared.table.drop(columns=left_out), truth
+                )
 
 
 def _measured_turns(table: pd.DataFrame) -> list[str]:

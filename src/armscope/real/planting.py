@@ -1,7 +1,7 @@
 """A known effect added to real recordings: points, and orientations where measured, move by what it does to the arm.
 
-What it does to the arm is simulated (`armscope.real.theatre`). Nothing is concealed that nobody could find, or that
-is none: errors larger than any real arm's, and motion that links and zeros which are off by a millimetre and a
+What it does to the arm is simulated (`armscope.real.simulated_effects`). Nothing is concealed that nobody could find,
+or that is none: errors larger than any real arm's, and motion that links and zeros which are off by a millimetre and a
 milliradian make as well (an instrument's scale is all links longer by the same share).
 """
 
@@ -18,7 +18,7 @@ from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.real.constants import LARGEST
-from armscope.real.theatre import Theatre
+from armscope.real.simulated_effects import SimulatedEffects
 from armscope.world.effect_placement import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import ALTERNATIVE_NATS, Judge, Visibility
@@ -70,12 +70,12 @@ class CannotPlantError(Exception):
 
 
 def plant(
-    theatre: Theatre, judge: Judge, name: str, sizes: Sequence[float], level: float, rng: np.random.Generator
+    simulated: SimulatedEffects, judge: Judge, name: str, sizes: Sequence[float], level: float, rng: np.random.Generator
 ) -> Iterator[Planted | NotPlanted]:
     """One effect at one place at several sizes.
 
     Args:
-        theatre: the stage, simulated.
+        simulated: effects on the arm, at the prepared rows.
         judge: of what can be told apart there.
         name: the effect's key in the catalogue of worlds.
         sizes: RMS at the tool in multiples of the level.
@@ -89,18 +89,18 @@ def plant(
         CannotPlantError: the recordings have no place where this effect could be seen at any size.
     """
     kind = KINDS[name]
-    places = rng.permutation(_places(theatre, kind)).tolist()
-    effects = [Concealed(kind, place, kind.draw(rng, theatre.scenes[0], place)) for place in places]
-    effect = _best_placed(theatre, judge, effects, sizes, level)
+    places = rng.permutation(_places(simulated, kind)).tolist()
+    effects = [Concealed(kind, place, kind.draw(rng, simulated.scenes[0], place)) for place in places]
+    effect = _best_placed(simulated, judge, effects, sizes, level)
     for size in sizes:
         try:
-            yield _sized(theatre, judge, effect, size, level)
+            yield _sized(simulated, judge, effect, size, level)
         except CannotPlantError as error:
             yield NotPlanted(size, str(error))
 
 
 def _best_placed(
-    theatre: Theatre, judge: Judge, effects: Sequence[Concealed], sizes: Sequence[float], level: float
+    simulated: SimulatedEffects, judge: Judge, effects: Sequence[Concealed], sizes: Sequence[float], level: float
 ) -> Concealed:
     """The first that has the fewest alternatives at the largest size that any place allows.
 
@@ -112,7 +112,7 @@ def _best_placed(
         found: list[Planted] = []
         for effect in effects:
             try:
-                found.append(_sized(theatre, judge, effect, size, level, largest_factor))
+                found.append(_sized(simulated, judge, effect, size, level, largest_factor))
             except CannotPlantError as error:
                 reasons += [str(error)] if largest_factor == np.inf else []
             if len(found) == TRIES:
@@ -122,20 +122,20 @@ def _best_placed(
     raise CannotPlantError("; ".join(dict.fromkeys(reasons)))
 
 
-def _places(theatre: Theatre, kind: Kind) -> list[str]:
+def _places(simulated: SimulatedEffects, kind: Kind) -> list[str]:
     """Where the recordings could show it.
 
     Raises:
         CannotPlantError: nowhere.
     """
-    stage = theatre.stage
-    torque = stage.recordings.torque
-    if kind.driver == LOAD and torque is None and not stage.arm.has_masses:
+    prepared = simulated.prepared
+    torque = prepared.recordings.torque
+    if kind.driver == LOAD and torque is None and not prepared.arm.has_masses:
         raise CannotPlantError("neither link masses nor torques are known: nothing to give way under")
-    moves = np.ptp(stage.recordings.motor_angles, axis=0) > MOVES_RAD
-    load = np.abs(torque).max(axis=0) if torque is not None else theatre.scenes[0].torque_scale
+    moves = np.ptp(prepared.recordings.motor_angles, axis=0) > MOVES_RAD
+    load = np.abs(torque).max(axis=0) if torque is not None else simulated.scenes[0].torque_scale
     found = []
-    for place in kind.places(stage.arm.description):
+    for place in kind.places(prepared.arm.description):
         if kind.driver == LOAD and load[number(place)] <= LEAST_TORQUE * load.max():
             continue
         if Location.of(place).kind == "joint" and kind.driver != LOAD and not moves[number(place)]:
@@ -149,17 +149,22 @@ def _places(theatre: Theatre, kind: Kind) -> list[str]:
 
 
 def _sized(
-    theatre: Theatre, judge: Judge, effect: Concealed, size: float, level: float, largest_factor: float = np.inf
+    simulated: SimulatedEffects,
+    judge: Judge,
+    effect: Concealed,
+    size: float,
+    level: float,
+    largest_factor: float = np.inf,
 ) -> Planted:
     """The effect scaled to its size.
 
     Raises:
         CannotPlantError: frames or links take nearly all of it, or it would be absurd.
     """
-    train, total = theatre.stage.train, 1.0
+    train, total = simulated.prepared.train, 1.0
     for _ in range(ROUNDS):
-        moved = theatre.moved(effect)
-        left = theatre.left(moved)
+        moved = simulated.moved(effect)
+        left = simulated.left(moved)
         raw, after = rms(moved[train]), rms(left[train])
         if raw < 1e-9 or after < SEEN_SHARE * raw:
             raise CannotPlantError("frames absorb it")
@@ -169,13 +174,13 @@ def _sized(
             raise CannotPlantError("it would move the tool absurdly far")
         effect = effect.scaled(factor)
     _check_size(effect)
-    moved, turned = theatre.motion(effect)
-    left = theatre.left(moved)
-    beyond_geometry = theatre.beyond_geometry(left, level)
+    moved, turned = simulated.motion(effect)
+    left = simulated.left(moved)
+    beyond_geometry = simulated.beyond_geometry(left, level)
     if beyond_geometry / 2 < ALTERNATIVE_NATS:
         raise CannotPlantError("links off by a millimetre or a milliradian move the tool alike")
-    visibility = _visibility(theatre, judge, effect, moved, rms(left[train]), level)
-    rotations = theatre.stage.rotations
+    visibility = _visibility(simulated, judge, effect, moved, rms(left[train]), level)
+    rotations = simulated.prepared.rotations
     in_measurement, left_there = (np.einsum("nij,nj->ni", rotations, each) for each in (moved, left))
     turned = rotations @ turned @ np.swapaxes(rotations, 1, 2)
     return Planted(effect, size, rms(left[train]), in_measurement, turned, left_there, visibility, beyond_geometry)
@@ -192,16 +197,16 @@ def _check_size(effect: Concealed) -> None:
 
 
 def _visibility(
-    theatre: Theatre, judge: Judge, effect: Concealed, moved: Array, size: float, level: float
+    simulated: SimulatedEffects, judge: Judge, effect: Concealed, moved: Array, size: float, level: float
 ) -> Visibility:
     """How well it can be told from others; the first target stands for all, with its noise reduced accordingly."""
-    sized = Sized(effect, size, moved[theatre.first_training()])
-    return judge.visibility(sized, [], level / np.sqrt(len(theatre.rows)))
+    sized = Sized(effect, size, moved[simulated.first_training()])
+    return judge.visibility(sized, [], level / np.sqrt(len(simulated.rows)))
 
 
-def truth_of(theatre: Theatre, planted: Planted) -> dict[str, Any]:
+def truth_of(simulated: SimulatedEffects, planted: Planted) -> dict[str, Any]:
     """What is sealed about a planted effect, but where it came from."""
-    stage, effect = theatre.stage, planted.effect
+    prepared, effect = simulated.prepared, planted.effect
     content: dict[str, Any] = {
         "effect": effect.kind.effect,
         "location": effect.location,
@@ -214,8 +219,8 @@ def truth_of(theatre: Theatre, planted: Planted) -> dict[str, Any]:
         "beyond_geometry": planted.beyond_geometry,
     }
     if "time" in effect.values:
-        order = stage.configuration[stage.train]
-        ids = stage.recordings.id[stage.train].astype(float)
+        order = prepared.configuration[prepared.train]
+        ids = prepared.recordings.id[prepared.train].astype(float)
         before = order < effect.values["time"]
         content["jump_between_ids"] = [float(ids[before].max()), float(ids[~before].min())]
     return content

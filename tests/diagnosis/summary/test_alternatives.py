@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.earning import held_out_errors
+from armscope.diagnosis.held_out_worth import held_out_errors
 from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, too_close
 from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import evaluate

@@ -12,8 +12,8 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.curve_shapes import DRIVE, rest_of
-from armscope.diagnosis.earning import held_out_errors
-from armscope.diagnosis.promotion import named
+from armscope.diagnosis.held_out_worth import held_out_errors
+from armscope.diagnosis.naming import named
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.confidence_set import confidence_set
 from armscope.inference.constants import BUDGET, PRIORS

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from armscope.core.location import Location
-from armscope.diagnosis.earning import held_out_gains, without_members
+from armscope.diagnosis.held_out_worth import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, MENDED

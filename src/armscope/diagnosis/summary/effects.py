@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
-from armscope.diagnosis.promotion import nested_log_odds
+from armscope.diagnosis.naming import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState

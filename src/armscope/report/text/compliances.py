@@ -11,7 +11,7 @@ import pandas as pd
 from armscope.core.markdown import table_lines
 from armscope.real.compliance_tables import half_width
 from armscope.real.compliances import PRIOR, WAVE
-from armscope.real.rehearsal import AGREES
+from armscope.real.simulated_comparison import AGREES
 
 INTRODUCTION = f"""\
 Do the runs say the same of how this arm gives way? Each run by itself was fitted with one and the same model: base and
@@ -33,14 +33,16 @@ def compliance_lines(folder: Path, title: str, picture: str) -> str:
     """
     if not (folder / "compliances.csv").exists():
         return ""
-    values, pairs, rehearsed = (
-        pd.read_csv(folder / f"{name}.csv") for name in ("compliances", "compliances_agree", "compliances_rehearsed")
+    values, pairs, simulated = (
+        pd.read_csv(folder / f"{name}.csv") for name in ("compliances", "compliances_agree", "compliances_simulated")
     )
     parts = [
         INTRODUCTION,
         *(_told(str(learned), rows, pairs) for learned, rows in values.groupby("learned", sort=False)),
     ]
-    return "\n\n".join([*parts, _table(pairs), _rehearsal(rehearsed), f"![{title}: compliances run by run]({picture})"])
+    return "\n\n".join(
+        [*parts, _table(pairs), _simulated_comparison(simulated), f"![{title}: compliances run by run]({picture})"]
+    )
 
 
 def _told(learned: str, values: pd.DataFrame, pairs: pd.DataFrame) -> str:
@@ -81,14 +83,14 @@ def _table(pairs: pd.DataFrame) -> str:
     return "\n".join(table_lines(head, lines))
 
 
-def _rehearsal(rehearsed: pd.DataFrame) -> str:
+def _simulated_comparison(simulated: pd.DataFrame) -> str:
     """The same procedure on simulated arms."""
     told = []
-    for learned, rows in rehearsed.groupby("learned", sort=False):
+    for learned, rows in simulated.groupby("learned", sort=False):
         kinds = ", ".join(f"{row['agree']} of {row['arms']} on {row['arm']}" for row in rows.to_dict("records"))
         share = 100 * rows["held"].sum() / rows["numbers"].sum()
         told.append(f"{learned}: {kinds} agree, {share:.0f} % of the drives' intervals hold the truth")
-    runs = f"{rehearsed['one'].iloc[0]} and {rehearsed['other'].iloc[0]}"
+    runs = f"{simulated['one'].iloc[0]} and {simulated['other'].iloc[0]}"
     return (
         f"The same on simulated arms, wrong in more ways than the model knows, at the angles and torques of {runs}: "
         f"{'; '.join(told)}. (Their instruments err by chance, not with the view.)"

@@ -28,16 +28,16 @@ from armscope.recordings import Recordings
 Mask = NDArray[np.bool_]
 
 
-class BringingBack(SelectionLoop):
+class SelectionWithSustainedOutliers(SelectionLoop):
     """Rounds in which rows that are far off together are no bad shots if a jump explains them."""
 
     def _settle(self) -> None:
         super()._settle()
-        for _ in range(LOOP.times_brought_back):
-            if not self._brought_back():
+        for _ in range(LOOP.rounds_of_outliers):
+            if not self._explained_by_a_jump():
                 break
 
-    def _brought_back(self) -> bool:
+    def _explained_by_a_jump(self) -> bool:
         """Whether a jump explains rows that were far off together; all stays as it was where none does."""
         apart = far_off_together(self.recordings, self._suspect())
         if not apart.any():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.diagnosis.earning import earned, held_out_gains, predicted_better
+from armscope.diagnosis.held_out_worth import earned, held_out_gains, predicted_better
 from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations, total

@@ -1,4 +1,4 @@
-"""The comparison of compliances rehearsed on simulated arms: do its intervals hold, does it agree when it should?
+"""The comparison of compliances tried on simulated arms: do its intervals hold, does it agree when it should?
 
 Arms are drawn and simulated at the real runs' commanded angles, with much that the comparison's model does not have: a
 gear's mesh, lost motion by the side of load, links and a base that bend, joints that drag others along, heavier masses
@@ -40,7 +40,7 @@ AGREES = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class DrawnArm:
     """A simulated arm: compliances of drives and bearings, rad/(N m), and all else."""
 
     drives: Array
@@ -48,7 +48,7 @@ class Drawn:
     rest: tuple[Part, ...]
 
 
-def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
+def draw_arm(arm: Arm, rows: Recordings, rng: np.random.Generator) -> DrawnArm:
     """An arm that is a little wrong everywhere; joints that move in ``rows`` have waves.
 
     Args:
@@ -74,10 +74,12 @@ def draw(arm: Arm, rows: Recordings, rng: np.random.Generator) -> Drawn:
         ([base for base in elastic.BASE_COMPLIANCE.place(arm, rows) if not base.variant], BASE),
     ]
     rest += [Part(placed, np.array([rng.uniform(0, size)])) for places, size in positive for placed in places]
-    return Drawn(drives, bearings, tuple(rest))
+    return DrawnArm(drives, bearings, tuple(rest))
 
 
-def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.random.Generator) -> Recordings:
+def simulate_recordings(
+    arm: Arm, rows: Recordings, drawn: DrawnArm, softer: float, rng: np.random.Generator
+) -> Recordings:
     """``rows`` as a drawn arm gives them, its compliances ``softer`` times as large.
 
     Args:
@@ -116,8 +118,10 @@ def record(arm: Arm, rows: Recordings, drawn: Drawn, softer: float, rng: np.rand
     return replace(rows, positions=points, torque=recorded, orientation=turned.as_quat(scalar_first=True))
 
 
-def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int], arms: int, seed: int) -> pd.DataFrame:
-    """Drawn arms recorded in two runs and compared.
+def compare_on_simulated_arms(
+    arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int], arms: int, seed: int
+) -> pd.DataFrame:
+    """DrawnArm arms recorded in two runs and compared.
 
     Args:
         arm: the nominal arm.
@@ -135,9 +139,9 @@ def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int]
         agree, held = [], []
         for number in range(arms):
             rng = np.random.default_rng([seed, number])
-            drawn = draw(arm, one, rng)
-            first = fit_give(arm, record(arm, one, drawn, 1.0, rng), "one")
-            second = fit_give(arm, record(arm, other, drawn, softer, rng), "other")
+            drawn = draw_arm(arm, one, rng)
+            first = fit_give(arm, simulate_recordings(arm, one, drawn, 1.0, rng), "one")
+            second = fit_give(arm, simulate_recordings(arm, other, drawn, softer, rng), "other")
             agree.append(compare_compliances(first, second).probability > AGREES)
             for give, factor in ((first, 1.0), (second, softer)):
                 held += [
@@ -148,10 +152,10 @@ def rehearse(arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int]
     return pd.DataFrame(found)
 
 
-def rehearse_runs(
+def compare_simulated_runs(
     arm: Arm, recordings: Recordings, reference: ReferenceCompliances, arms: int, seed: int
 ) -> pd.DataFrame:
-    """`rehearse` at the first two runs' angles and torques: from points alone, and from orientations, too.
+    """`compare_on_simulated_arms` at the first two runs' angles and torques: by points alone, and by orientations, too.
 
     Args:
         arm: the nominal arm.
@@ -161,13 +165,13 @@ def rehearse_runs(
         seed: of the drawing.
 
     Returns:
-        As `rehearse`, with what was learned from and the two runs.
+        As `compare_on_simulated_arms`, with what was learned from and the two runs.
     """
     one, other = reference.runs[:2]
     found = []
     for learned in (POINTS, ORIENTATIONS) if recordings.oriented.any() else (POINTS,):
         rows = replace(recordings, orientation=None) if learned == POINTS else recordings
         first, second = rows.of_runs([one]), rows.of_runs([other])
-        table = rehearse(arm, first, second, list(reference.microrad_per_nm), arms, seed)
+        table = compare_on_simulated_arms(arm, first, second, list(reference.microrad_per_nm), arms, seed)
         found.append(table.assign(learned=learned, one=one, other=other))
     return pd.concat(found, ignore_index=True)

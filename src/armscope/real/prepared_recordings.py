@@ -31,7 +31,7 @@ KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|q[wxyz]|tau\d+_nm|payload_kg|sigma_[xyz
 
 
 @dataclass(frozen=True, eq=False)
-class Stage:
+class PreparedRecordings:
     """Rows of a real arm with everything that may be seen of them.
 
     Attributes:
@@ -81,7 +81,7 @@ def with_payload(table: pd.DataFrame) -> pd.DataFrame:
     return rows.assign(target=rows["run"]).reset_index(drop=True)
 
 
-def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") -> Stage:
+def prepared_recordings(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") -> PreparedRecordings:
     """Rows of a recording with the columns that all tables have, at most so many, drawn by configuration.
 
     Args:
@@ -116,7 +116,7 @@ def stage(arm: Arm, table: pd.DataFrame, most_rows: int, source: str = "table") 
     calibrated = calibrate(arm, recordings, "geometric", robust=True, tool_per_run=False, orientation=False)
     rows, state = calibrated.set_up, calibrated.state
     train, test = random_split(recordings, 0)
-    return Stage(
+    return PreparedRecordings(
         arm, table, recordings, train, test, configuration, rows.tool_names, rows.tool, state.tools,
         state.rotations[rows.base],
     )  # fmt: skip

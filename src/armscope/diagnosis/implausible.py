@@ -14,7 +14,7 @@ from armscope.physics.effect import Part
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 
 
-def impossible(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
+def implausible_effects(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
     """Names that don't stand once they are fitted with the exact model.
 
     Args:

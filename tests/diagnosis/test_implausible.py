@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import unheard
-from armscope.diagnosis.impossible import impossible
+from armscope.diagnosis.implausible import implausible_effects
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.registration import fit_frames
 from armscope.inference.problem import SelectedEffect
@@ -39,7 +39,7 @@ def test_a_name_within_a_background_may_not_be_negative_where_it_gives_way(compl
     loop, number = named({("joint_compliance", "joint 2"): [compliance]}, nested=True)
     fit = loop._fitted(loop.best)
     assert np.sign(fit.model.parts[0].values[0]) == np.sign(compliance)
-    assert impossible(loop.problem, loop.space, loop.best, fit) == ([number] if pushes else [])
+    assert implausible_effects(loop.problem, loop.space, loop.best, fit) == ([number] if pushes else [])
 
 
 @pytest.mark.parametrize(
@@ -58,4 +58,4 @@ def test_a_value_beyond_what_arms_show_is_no_name_where_the_tool_misses_by_less(
     (part,) = fit.model.parts
     # as a fit leaves it beside gears' waves that are as large: their sum is what the rows hold
     told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([fitted_ratio])),)))
-    assert impossible(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])
+    assert implausible_effects(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.diagnosis.rows_brought_back import far_off_together
+from armscope.diagnosis.sustained_outliers import far_off_together
 from armscope.recordings import Recordings
 from tests.seeds import seeds
 

@@ -1,4 +1,4 @@
-"""Which of the chosen effects stand once held-out rows were asked, and the slow wander of the base is set aside."""
+"""Which of the chosen effects are kept once held-out rows were asked, and the slow wander of the base is set aside."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.diagnosis.earning import earned, steady, with_drifts_of_their_own
+from armscope.diagnosis.held_out_worth import earned, steady, with_drifts_of_their_own
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
@@ -17,7 +17,7 @@ from armscope.physics.effect import Placed
 from armscope.physics.wander import is_of_rows
 
 
-def what_stands(
+def kept_effects(
     problem: Problem,
     blocks: Sequence[NormalEquations],
     hypothesis: Hypothesis,
@@ -34,7 +34,7 @@ def what_stands(
         wander: of the base and of links, that the hypothesis may allow for.
 
     Returns:
-        The hypothesis, with what stands.
+        The hypothesis, with what is kept.
     """
     left = earned(problem, blocks, hypothesis)
     columns = [space.layout.of(placed) for placed in wander]
