@@ -210,7 +210,7 @@ def members(found: Selected) -> tuple[list[Member], float]:
 
 
 def _beyond(at: Hypothesis, family: Indices, own: Indices, variance: Array) -> Array:
-    """How many times the usual value of the rest of the family each value is: the rule of `diagnosis.promotion`."""
+    """How many times the usual value of the rest of the family each value is: the rule of `diagnosis.naming`."""
     others = np.setdiff1d(family, own)
     usual = np.mean((at.means(others) ** 2 + at.variances(others)) / variance[others])
     return np.asarray(np.abs(at.means(own)) / np.sqrt(usual * variance[own]))

@@ -40,7 +40,7 @@ JOINT_PLAY = Cause(
     DRIVE,
     "Gear, coupling or key have play: the link lies at the end to which its torque pushes it.",
     "Hold the motor, push the link gently to and fro by hand and read both encoders.",
-    "Take the play out of the drive, or let the link of the model lie behind its motor, against the motor's torque.",
+    "Take the play out of the drive, or let the link of the model lie behind its motor, against the torque passed on.",
     nonnegative=True,
     labels={"half": "half of the play"},
     clause=clauses.play_clause,
