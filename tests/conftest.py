@@ -1,9 +1,12 @@
 """What all tests share: one BLAS thread and rare searches for garbage, as the command line has it, and byte code."""
 
+import functools
 import gc
 import os
 import signal
 import sys
+
+import typer.testing
 
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")  # read when numpy is imported; small matrices only wait for more threads
@@ -16,6 +19,9 @@ sys.dont_write_bytecode = False
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 gc.set_threshold(20_000, 20, 20)
+
+# a command line is made of its functions once in a process; typer's runner would make all of it again for every line
+typer.testing._get_command = functools.cache(typer.testing._get_command)
 
 
 def pytest_collection_finish() -> None:
