@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import forward_kinematics
+from armscope.verdict.diagnosis import Diagnosis
 from tests.seeds import seeds
 
 from ..physics.scenes import arm_named
@@ -66,11 +68,16 @@ def measured(truth: FittedModel, seed: int) -> Recordings:
     return replace(table, positions=predict(truth, table) + 1e-3 * NOISE_MM * noise)
 
 
+@functools.cache
+def found_beside_uneven_bearings(seed: int) -> Diagnosis:
+    truth = with_uneven_bearings(seed)
+    return diagnose(truth.arm, measured(truth, seed), QUICK)
+
+
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) -> None:
     """Before they were allowed for, the base, D-H lengths and gears had names for them."""
-    truth = with_uneven_bearings(seed)
-    verdict = diagnose(truth.arm, measured(truth, seed), QUICK)
+    verdict = found_beside_uneven_bearings(seed)
     assert {effect.family for effect in verdict.effects} <= {ELASTIC}
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
 
@@ -83,7 +90,7 @@ def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should
     path = pd.DataFrame(poses.motor_angles, columns=[f"q{j}_rad" for j in range(1, 7)])
     path = path.assign(payload_kg=poses.payload, temperature_c=poses.temperature)
     wanted = forward_kinematics(truth.arm, poses.motor_angles)
-    found = compensate(diagnose(truth.arm, table, QUICK).model, path, table)
+    found = compensate(found_beside_uneven_bearings(1).model, path, table)
     reached = np.isfinite(found.commands).all(axis=1)
 
     def missed_mm(angles: Array) -> float:

@@ -16,6 +16,7 @@ from armscope.physics.model_file import load_model, save_model
 from armscope.recordings import Recordings, read_recordings
 from armscope.robot import Arm, load_arm
 from armscope.robot.arm import build_arm
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.schema import Verdict
 from tests.seeds import seeds
 
@@ -44,6 +45,19 @@ def names(verdict: Verdict) -> set[tuple[str, str]]:
 
 def without(table: Recordings) -> Recordings:
     return replace(table, orientation=None)
+
+
+@pytest.fixture(scope="module")
+def with_turns() -> Diagnosis:
+    """Of a joint's zero, points and orientations."""
+    return diagnose(*oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}), QUICK)
+
+
+@pytest.fixture(scope="module")
+def without_turns() -> Diagnosis:
+    """Of the same points alone."""
+    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    return diagnose(arm, without(table), QUICK)
 
 
 def test_a_tool_that_is_turned_anyhow_on_the_flange_is_found_from_nothing() -> None:
@@ -97,10 +111,9 @@ def test_what_goes_with_the_side_that_is_seen_is_the_instruments(seed: int, bent
     assert verdict.orientations.noise_mrad == pytest.approx(TURN_MRAD, rel=0.1)
 
 
-def test_orientations_without_such_errors_have_none() -> None:
-    verdict = diagnose(*oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}), QUICK)
-    assert verdict.orientations is not None
-    assert verdict.orientations.instrument_mrad == 0
+def test_orientations_without_such_errors_have_none(with_turns: Diagnosis) -> None:
+    assert with_turns.orientations is not None
+    assert with_turns.orientations.instrument_mrad == 0
 
 
 def test_what_hardly_moves_the_point_shows_in_the_turn() -> None:
@@ -152,21 +165,20 @@ def test_wild_orientations_do_not_drag_the_model() -> None:
     assert abs(value.value - 4e-4) < 3 * value.stderr
 
 
-def test_orientations_in_another_order_are_told_and_left_out() -> None:
+def test_orientations_in_another_order_are_told_and_left_out(without_turns: Diagnosis) -> None:
     arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
     verdict = diagnose(arm, replace(table, orientation=table.orientation[:, [1, 2, 3, 0]]), QUICK)
-    alone = diagnose(arm, without(table), QUICK)
     assert [notice.kind for notice in verdict.notices].count("orientations not the arm's") == 1
     assert verdict.orientations is None
-    assert verdict.effects[0].parameters == alone.effects[0].parameters
+    assert verdict.effects[0].parameters == without_turns.effects[0].parameters
 
 
-def test_positions_can_be_asked_for_alone() -> None:
+def test_positions_can_be_asked_for_alone(without_turns: Diagnosis) -> None:
     arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
     asked = diagnose(arm, table, replace(QUICK, orientation=False))
     assert asked.orientations is None
-    assert asked.effects[0].parameters == diagnose(arm, without(table), QUICK).effects[0].parameters
+    assert asked.effects[0].parameters == without_turns.effects[0].parameters
 
 
 def test_a_tool_put_on_again_turned_is_free_in_every_run() -> None:
@@ -206,10 +218,9 @@ def test_held_out_orientations_become_as_good_as_their_noise() -> None:
     assert bare.to_json()["orientation"] is None
 
 
-def test_the_model_keeps_how_the_tool_is_turned(tmp_path: Path) -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
-    model = diagnose(arm, table, QUICK).model
-    save_model(tmp_path / "model.yaml", model)
+def test_the_model_keeps_how_the_tool_is_turned(with_turns: Diagnosis, tmp_path: Path) -> None:
+    _, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    save_model(tmp_path / "model.yaml", with_turns.model)
     again = residuals(load_model(tmp_path / "model.yaml"), table)
     assert 1e3 * np.sqrt(np.mean(again["orientation"] ** 2)) == pytest.approx(TURN_MRAD, rel=0.1)
 

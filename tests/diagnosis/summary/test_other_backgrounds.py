@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,7 @@ TRUE = {"joint 2": 5e-6, "joint 4": 5e-6}
 """rad/(N m)."""
 
 
+@functools.cache
 def found_where_only_two_joints_move(seed: int) -> list[FoundEffect]:
     """Names in a stretched seven-axis arm of which joints 1 and 2 move: joints 2, 4 and 6 bear proportional loads."""
     arm = arm_named("seven-axis")
@@ -42,7 +44,7 @@ def test_a_compliance_that_another_could_be_is_not_claimed_for_one_joint(seed: i
 def test_its_interval_owns_what_springs_elsewhere_might_do(monkeypatch: pytest.MonkeyPatch) -> None:
     (owned,) = found_where_only_two_joints_move(1)
     monkeypatch.setattr(judgement, "doubts", lambda search, best: {})
-    (sure,) = found_where_only_two_joints_move(1)
+    (sure,) = found_where_only_two_joints_move.__wrapped__(1)  # anew, without the doubts
     assert owned.parameters[0].value == sure.parameters[0].value
     assert owned.parameters[0].stderr > 2 * sure.parameters[0].stderr
 

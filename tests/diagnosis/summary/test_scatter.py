@@ -43,17 +43,24 @@ def told(verdict: Diagnosis) -> dict[str, tuple[float, float]]:
     return {each.name: (each.value, each.stderr) for each in effect.parameters}
 
 
-def test_play_is_sized_by_the_order_of_rows(arm: Arm) -> None:
-    verdict = diagnose(arm, with_play(arm, GAP, 30), QUICK)
-    value, stderr = told(verdict)["play"]
+@pytest.fixture(scope="module")
+def without_sides(arm: Arm) -> Diagnosis:
+    """What is said of play of which nobody wrote down the side."""
+    return diagnose(arm, with_play(arm, GAP, 30), QUICK)
+
+
+def test_play_is_sized_by_the_order_of_rows(without_sides: Diagnosis) -> None:
+    value, stderr = told(without_sides)["play"]
     assert abs(value - GAP) < 3 * stderr
-    assert IN_ORDER in verdict.headline
+    assert IN_ORDER in without_sides.headline
 
 
-def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(arm: Arm, tmp_path: Path) -> None:
+def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(
+    arm: Arm, without_sides: Diagnosis, tmp_path: Path
+) -> None:
     """The cure's own words, followed to the letter: all columns, through a file."""
     table = with_play(arm, GAP, 30)
-    (scatter,) = [each for each in diagnose(arm, table, QUICK).effects if each.effect == "unknown"]
+    (scatter,) = [each for each in without_sides.effects if each.effect == "unknown"]
     names = [f"approach{motor}" for motor in range(1, arm.n_motors + 1)]
     assert f"{names[0]} ... {names[-1]}" in scatter.cure
     columns = {f"q{n}_rad": q for n, q in enumerate(table.motor_angles.T, 1)}
