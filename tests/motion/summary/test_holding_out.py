@@ -10,7 +10,10 @@ from armscope.inference.evidence import evaluate
 from armscope.motion.library.layout import OWN
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary.holding_out import as_entered, coefficients_of, folds
+from armscope.recordings.motions import as_motions
+from tests.motion.fitting.test_pauses import from_point_to_point
 from tests.motion.moving import COULOMB, moved, robot
+from tests.seeds import seeds
 
 JOINT = 1
 
@@ -46,3 +49,17 @@ def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
         torque.append(moving * part.rows.torque[part.which])
     by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
     assert as_entered(selected, parts, ())[0] == pytest.approx(by_hand, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", seeds(5, 6))
+def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
+    """Recordings that differ in the forces of their pauses alone, in which no model foretells them."""
+    tables = [as_motions(from_point_to_point(seed, held), "motions.csv", 3) for held in (0.9, -0.9)]
+    apart = np.sqrt(np.mean((tables[0].effort - tables[1].effort) ** 2, axis=0))
+    assert np.all(apart > 0.3 * COULOMB)
+    noise = 0.01
+    for table in tables:
+        verdict = diagnose_motion(robot(), table).verdict
+        held_out = verdict.held_out
+        assert max(held_out.background, held_out.model, *held_out.by_run.values()) < noise
+        assert max(step.held_out for step in verdict.waterfall) < noise

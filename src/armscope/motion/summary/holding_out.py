@@ -91,9 +91,13 @@ class HeldOutTorque:
     model: Array
 
     @property
-    def moving(self) -> Array:
-        """(K, m) 1 where a joint moves, 0 where it stands."""
-        return np.asarray(1.0 - self.rows.still[self.which], dtype=np.float64)
+    def in_motion(self) -> Array:
+        """(K, m) what was measured while a joint moves, 0 where it stands or a pause holds it."""
+        return _moving(self.rows, self.which, self.measured)
+
+    def missed(self, said: Array) -> Array:
+        """(K, m) what torques (K, m) leave of the measured ones while a joint moves; see `_missed`."""
+        return _missed(self.rows, self.which, self.measured - said)
 
 
 def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
@@ -117,13 +121,12 @@ def measure(held: Sequence[HeldOutTorque], what: str) -> HeldOutMotion:
     Returns:
         Errors relative to the torque.
     """
-    whole = np.concatenate([part.measured for part in held])
-    moving = np.concatenate([part.moving for part in held])
+    whole = np.concatenate([part.in_motion for part in held])
     stated, background, model = (
-        moving * (whole - np.concatenate([getattr(part, name) for part in held]))
+        np.concatenate([part.missed(getattr(part, name)) for part in held])
         for name in ("stated", "background", "model")
     )
-    whole = moving * whole
+    moving = np.concatenate([part.rows.moving[part.which] for part in held])
     return HeldOutMotion(
         stated=relative(stated, whole),
         background=relative(background, whole),
@@ -139,8 +142,8 @@ def errors_by_run(held: Sequence[HeldOutTorque]) -> dict[str, float]:
     for part in held:
         run = part.rows.run[part.which]
         for name in dict.fromkeys(run.tolist()):
-            there = part.moving * (run == name)[:, None]
-            errors[name] = relative(there * (part.measured - part.model), there * part.measured)
+            there = (run == name)[:, None]
+            errors[name] = relative(there * part.missed(part.model), there * part.in_motion)
     return errors
 
 
@@ -208,19 +211,35 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
         fitted = coefficients_of(fold.problem, evaluate(fold.problem, best.chosen, best.background, fold.found.noise))
         stated = np.nan_to_num(layout.arm.stated_background[:, 1:3])
         fitted[own[:, :2]] = np.maximum(fitted[own[:, :2]], -stated)
-        moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
-        torques.append(moving * torque)
+        torque = fold.rows.torque[fold.which]
+        torques.append(_moving(fold.rows, fold.which, torque))
         for columns, found in zip(states, missed, strict=True):
             entered = np.zeros_like(fitted)
             entered[columns] = fitted[columns]
             rows = replace(fold.rows, gain=gain_of(layout, entered))
             said = rows.nominal[fold.which] + rows.modelled(entered, fold.which)
-            found.append(moving * (torque - said))
+            found.append(_missed(fold.rows, fold.which, torque - said))
     return tuple(relative(np.concatenate(found), np.concatenate(torques)) for found in missed)
 
 
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
     """(residuals, torque) of the fold's rows with causes fitted on its sums."""
     fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
-    moving, torque = ~fold.rows.still[fold.which], fold.rows.torque[fold.which]
-    return moving * (torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)), moving * torque
+    torque = fold.rows.torque[fold.which]
+    left = torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)
+    return _missed(fold.rows, fold.which, left), _moving(fold.rows, fold.which, torque)
+
+
+def _moving(rows: MotionRows, which: Indices, torque: Array) -> Array:
+    """Torques (K, m) of some rows while joints move, 0 elsewhere."""
+    return np.where(rows.moving[which], torque, 0.0)
+
+
+def _missed(rows: MotionRows, which: Indices, left: Array) -> Array:
+    """What a model leaves (K, m) of some rows while joints move, without what forces that hold them make of it.
+
+    A row beside a pause holds a share of such a force, which no model foretells: as in the fit, it tells nothing.
+    """
+    whole = np.zeros(rows.torque.shape)
+    whole[which] = left
+    return _moving(rows, which, rows.without_pauses(whole)[which])
