@@ -126,11 +126,12 @@ class MotionModel:
         """(m, 6) the joints' numbers without, and (m,) s, by how much later than its speed dry friction changes sides.
 
         Fits hold that as friction's slope over time, which is the shift only as long as the low-pass rounds more off.
+        What is beyond the longest shift that is believed is left out: not low-passed, it is a spike at each reversal.
         """
         joints, most = self.joints.copy(), PRIOR.reversal_sizes[-1] * PRIOR.turning_s
         dry, later = joints[:, 1], joints[:, 5]
         turning = np.where(dry > 0, np.clip(later / np.where(dry > 0, dry, 1.0), -most, most), 0.0)
-        joints[:, 5] -= turning * dry
+        joints[:, 5] = 0.0
         return joints, turning
 
     def _gravity(self, q: Array) -> Array | None:
