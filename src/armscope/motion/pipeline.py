@@ -50,6 +50,7 @@ from armscope.motion.summary.judgement import (
 )
 from armscope.motion.summary.lasting import lasting_torques
 from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
@@ -223,14 +224,15 @@ def _judged(
     parts, held, alone = _that_others_tell(selected, parts, held)
     what += f", but for {', '.join(alone)}, of whose own load no other run knows" if alone else ""
     held_out = replace(measure(held, what), by_run=by_run)
-    numbered = found_causes(selected, sure)
+    explained, by_masses = shares_of(selected)
+    numbered = found_causes(selected, sure, explained)
     found = [cause for _, cause in numbered]
     order = [number for number, _ in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = (*lasting_torques(selected), *friction_by_run(selected))
     left = unexplained(found, lasting)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
-    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, sizes["masses"])
+    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, sizes["masses"], by_masses)
     answer, mismatch = answer_of(found, left, errors)
     verdict = MotionVerdict(
         answer=answer,

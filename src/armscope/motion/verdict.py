@@ -181,7 +181,8 @@ class MotionVerdict:
         effects: the causes, largest share first; those with `minor` true are apart from the story.
         unexplained: what no cause of the library explains.
         background: friction and rotor of every joint.
-        masses_share: of what friction and rotors leave that masses near the stated ones explain.
+        masses_share: of a link's mass, mass x length, mass x length^2, within which masses that have no name are held
+            near the stated ones; 0 where they are as stated.
         held_out: errors on motion that took no part.
         fitted: errors on the fitted rows.
         waterfall: how the error falls as causes come in, one by one.

@@ -177,6 +177,6 @@ def test_friction_that_changes_sides_later_is_predicted_as_a_shift_in_time() -> 
 
 @pytest.mark.parametrize("late", [-0.06, 0.03, 0.1])
 def test_no_joint_is_predicted_more_dry_friction_than_it_has(late: float) -> None:
-    """Moves from point to point may fit shifts of tens of milliseconds: their rest was spikes of many times friction."""
+    """Moves from point to point may fit shifts of tens of milliseconds: the rest was spikes of many times friction."""
     _, dry = dry_friction(late)
     assert np.max(np.abs(dry)) == pytest.approx(4.0, abs=0.01)

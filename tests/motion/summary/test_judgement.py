@@ -9,7 +9,8 @@ import pytest
 
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.summary.judgement import HeldOutErrors, answer_of, headline
-from armscope.motion.verdict import UnexplainedTorque
+from armscope.motion.verdict import FoundCause, UnexplainedTorque
+from armscope.verdict.effects import Parameter
 from tests.motion.moving import ROBOT, moved, robot
 
 
@@ -27,6 +28,35 @@ def test_links_that_are_all_off_a_little_are_not_nothing_missing(seed: int) -> N
     assert (verdict.answer, verdict.mismatch) == ("cannot tell", True)
     assert verdict.headline.startswith("Masses of the links are not as stated")
     assert verdict.waterfall[1].held_out < 0.8 * verdict.waterfall[0].held_out
+
+
+def test_names_that_are_worth_nothing_do_not_stand_in_the_place_of_masses() -> None:
+    """Beside links that are all off, a friction of a thousandth of what is left was the whole headline."""
+    small = replace(beside(), share=0.001, minor=True)
+    errors = HeldOutErrors(0.1, 0.014, 0.014, masses=0.03, by_masses=0.97)
+    assert answer_of([small], UnexplainedTorque(False), errors) == ("cannot tell", True)
+    assert headline([small], errors).startswith("Masses of the links are not as stated")
+    large = replace(small, share=0.3, minor=False)
+    assert answer_of([large], UnexplainedTorque(False), errors) == ("explained", True)
+    assert "30 % of what friction and rotors leave" in headline([large], errors)
+    assert "off without a name: 97 %" in headline([large], errors)
+
+
+def beside() -> FoundCause:
+    return FoundCause(
+        effect="torque_offset",
+        location="joint 1",
+        family="drive",
+        driver="constant",
+        title="torque offset at joint 1",
+        minor=False,
+        parameters=(Parameter("offset", "N m", 0.3, 0.01),),
+        rms=0.3,
+        unit="N m",
+        joint="joint 1",
+        share=0.3,
+        evidence_nats=50.0,
+    )
 
 
 def test_masses_that_help_hardly_leave_nothing_missing() -> None:

@@ -9,7 +9,6 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
-from armscope.inference.shapley import shares
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement
 from armscope.motion.fitting.selected import SelectedCauses
@@ -27,10 +26,18 @@ from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
 
-def found_causes(selected: SelectedCauses, sure: Sureness) -> list[tuple[int, FoundCause]]:
-    """Every chosen cause with what is known about it, largest first, beside its candidate's number."""
+def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[float]) -> list[tuple[int, FoundCause]]:
+    """Every chosen cause with what is known about it, largest first, beside its candidate's number.
+
+    Args:
+        selected: the selection.
+        sure: what else would do, and how wide intervals are.
+        explained: share of what friction and rotors leave, of each chosen cause.
+
+    Returns:
+        The causes.
+    """
     best = selected.best
-    explained = _shares(selected)
     found = []
     for number, effect in enumerate(best.chosen):
         placed = selected.rows.layout.placed[effect.candidate]
@@ -104,22 +111,6 @@ def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tu
     return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
 
 
-def _shares(selected: SelectedCauses) -> list[float]:
-    """Share of what friction and rotors leave, of each chosen cause.
-
-    Masses that are off unnamed come in like a cause: what a name and they explain alike, they share.
-    """
-    best, problem = selected.best, selected.problem
-    ridge = np.full(len(problem.scale), 1e12)
-    ridge[best.columns] = best.noise**2 / best.variance
-    members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
-    inertial = selected.rows.layout.inertial
-    masses = np.intersect1d(inertial, best.columns)
-    base = np.setdiff1d(best.columns, np.concatenate([masses, *members]))
-    both = [*members, masses] if len(masses) else members
-    return [float(share) for share in shares(problem.equations, ridge, base, both)][: len(members)]
-
-
 def _alternatives(selected: SelectedCauses, sure: Sureness, number: int) -> tuple[Alternative, ...]:
     """What could stand in a cause's place, nearest first, each name once."""
     gains = gains_instead(selected, number)
@@ -179,12 +170,14 @@ class HeldOutErrors:
         anew: with causes found without that motion.
         named: with the causes that all of the motion names, their sizes found without it.
         masses: share of a link's mass, and so on, by which those are off that have no name.
+        by_masses: share of what friction and rotors leave that these explain, in the motion fitted.
     """
 
     without: float
     anew: float
     named: float
     masses: float = 0.0
+    by_masses: float = 0.0
 
     @property
     def worse(self) -> bool:
@@ -226,7 +219,7 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
     Returns:
         Both.
     """
-    if not found:
+    if not found or (errors.only_unnamed and not _told(found)):
         missing = left.present or errors.foretells_nothing or errors.only_unnamed
         return ("cannot tell", True) if missing else ("nothing missing", False)
     if errors.no_answer:
@@ -248,9 +241,9 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
     Returns:
         A sentence or some.
     """
-    main = [cause for cause in found if not cause.minor]
+    main = _told(found)
     beyond = f"{capitalised(lasting_words(lasting[:1]))}. " if lasting else ""
-    if not found and errors.only_unnamed and not errors.foretells_nothing:
+    if not main and errors.only_unnamed and not errors.foretells_nothing:
         met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
         return (
             "Masses of the links are not as stated, in a way that no single name says better than all of them off a "
@@ -275,7 +268,14 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
     causes = "; ".join(
         f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
-    return f"{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
+    unnamed = f"Masses of the links that are off without a name: {percent(errors.by_masses)}. "
+    unnamed = unnamed if errors.by_masses >= TELLING.minor_share else ""
+    return f"{capitalised(causes)}. {_further(rest)}{unnamed}{beyond}{errors.words()}"
+
+
+def _told(found: Sequence[FoundCause]) -> list[FoundCause]:
+    """Those that are part of the story."""
+    return [cause for cause in found if not cause.minor]
 
 
 ON_HELD_OUT = "On held-out motion"
