@@ -12,7 +12,7 @@ import pytest
 from armscope.check.motions import check_moving
 from armscope.core.inputs import InputError
 from armscope.motion.check import check_motions
-from armscope.motion.pipeline import diagnose_motion
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.timing import mended
 from armscope.recordings.motions import as_motions, read_motions
 from tests.motion.moving import moved, robot, table
@@ -119,3 +119,23 @@ def test_nothing_missing_says_how_coarsely_the_torque_was_recorded() -> None:
     assert verdict.answer == "nothing missing"
     assert "Recorded coarsely: tau2_nm in steps of 1.5, whose rounding is 0.43 RMS" in verdict.headline
     assert "tau1_nm" not in verdict.headline
+
+
+def test_a_run_in_which_nothing_moves_takes_no_part() -> None:
+    """Held out, or all that is left where another is, it has no row that tells anything."""
+    motion = table(robot(), 3)
+    stands = motion["run"] == "path 2"
+    still = motion.copy()
+    still.loc[stands, ["q1_rad", "q2_rad", "q3_rad"]] = [0.3, -0.2, 0.5]
+    verdict, alone = (
+        diagnose_motion(robot(), as_motions(each, "motions.csv", 3)).verdict for each in (still, motion[~stands])
+    )
+    assert verdict.runs == ("path 1",)
+    assert [each.text for each in verdict.notices if each.kind == "run stands"] == [
+        "Run path 2: no joint moves in it. It takes no part."
+    ]
+    assert (verdict.headline, verdict.held_out.model) == (alone.headline, alone.held_out.model)
+    with pytest.raises(InputError, match="no joint that moves"):
+        diagnose_motion(robot(), as_motions(still[stands], "motions.csv", 3))
+    with pytest.raises(InputError, match="has no such run in motion"):
+        diagnose_motion(robot(), as_motions(still, "motions.csv", 3), MotionSettings(held_out=("path 2",)))

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 COARSE = "coarse channel"
 """Kind of the notice that rounding of the recorded torque limits what can be told."""
+MOVES = "a joint moves by more than servo noise"
 
 
 def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
@@ -49,6 +50,20 @@ def doubts_about(motions: Motions) -> list[Notice]:
     """
     _refuse_temperatures(motions)
     return [*_still_joints(motions), *_one_way(motions), *_cut_off(motions), *_coarse(motions), *_no_speeds(motions)]
+
+
+def runs_in_motion(motions: Motions) -> tuple[Motions, list[Notice]]:
+    """The samples without runs in which no joint moves: what holds joints that stand tells nothing of the arm.
+
+    Raises:
+        InputError: none is left.
+    """
+    spans = {run: np.ptp(motions.q[motions.run == run], axis=0) for run in motions.runs}
+    standing = [run for run, span in spans.items() if np.all(span <= LIBRARY.still_rad)]
+    if len(standing) == len(motions.runs):
+        raise InputError(motions.source, "columns q1 ...", "no joint that moves", MOVES, "Record a motion.")
+    told = [Notice("run stands", f"Run {run}: no joint moves in it. It takes no part.") for run in standing]
+    return (motions.rows(~np.isin(motions.run, standing)) if standing else motions), told
 
 
 def channels(motions: Motions) -> list[str]:
@@ -84,8 +99,7 @@ def _refuse_dead(motions: Motions) -> None:
 def _still_joints(motions: Motions) -> list[Notice]:
     still = np.flatnonzero(np.ptp(motions.q, axis=0) <= LIBRARY.still_rad)
     if len(still) == motions.n_motors:
-        rule = "a joint moves by more than servo noise"
-        raise InputError(motions.source, "columns q1 ...", "no joint that moves", rule, "Record a motion.")
+        raise InputError(motions.source, "columns q1 ...", "no joint that moves", MOVES, "Record a motion.")
     return [
         Notice("joint stands", f"Joint {j + 1} never moves: of its friction and rotor nothing can be known.")
         for j in still

@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import COARSE, check_motions, refuse_few
+from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.pauses import pauses_in_words
@@ -140,11 +140,13 @@ def diagnose_motion(
         InputError: the samples don't fit the arm or hold nothing to go by.
     """
     settings = settings or MotionSettings()
+    motions, standing = runs_in_motion(motions)
     for run in settings.held_out:
         if run not in motions.runs:
-            raise InputError("--held-out", "", run, f"{motions.source} has no such run", nearest(run, motions.runs))
+            rule = f"{motions.source} has no such run in motion"
+            raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
     progress("laying samples on an even grid", 0.0)
-    notices = [Notice("table", note) for note in motions.notes] + check_motions(arm, motions)
+    notices = [Notice("table", note) for note in motions.notes] + standing + check_motions(arm, motions)
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
