@@ -166,11 +166,12 @@ class RowNoiseRules(Constants):
     longest_lag: int = constant(1000, "over which autocorrelation is summed", "judgement: time", unit="rows")
     window: float = constant(5.0, "autocorrelation times at which the sum ends", "convention: Sokal 1997", unit="times")
     rows_at_once: int = constant(20_000, "summed at a time, in double precision", "judgement: memory", unit="rows")
-    names_for_a_curve: int = constant(
-        3, "in place of one free curve, at most", "judgement: more are a curve", unit="causes"
-    )
+    names_for_a_curve: int = constant(3, "in place of one curve, at most", "judgement: more are one", unit="causes")
     nearly_all: float = constant(
         0.7, "of a curve's evidence that names must have to take its place", "judgement: most of what it explains"
+    )
+    nearly_all_of_a_law: float = constant(
+        0.95, "of a nameless law's evidence that the name in it must have", "judgement: all but a twentieth"
     )
     rounds: int = constant(
         5, "of noise and selection, at most", "judgement: names rest after two as a rule", unit="rounds"

@@ -8,6 +8,7 @@ import pytest
 from armscope.core.types import Array
 from armscope.motion.fitting.selection import starting_weights
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from tests.motion.cured import JOINT, STATED, Motion, diagnosed
 from tests.motion.moving import Plant, moved, robot
 
 
@@ -41,3 +42,18 @@ def test_at_each_joint_those_weights_count_of_which_less_lasts() -> None:
     assert better.correlated == pytest.approx(one.correlated)
     assert np.all(better.row[:, 0] == 0)
     assert np.array_equal(better.row[:, 1:], one.row[:, 1:])
+
+
+@pytest.mark.parametrize(("bend", "name"), [(0.005, "motor_constant"), (0.05, "unknown")])
+def test_a_gain_that_bends_next_to_nothing_is_a_gain(bend: float, name: str) -> None:
+    """A law that holds the gain and a little more fitted better, and what everybody calls a gain was unknown."""
+
+    def bent(motion: Motion, torque: Array) -> Array:
+        found, own = torque.copy(), torque[:, JOINT]
+        found[:, JOINT] = 0.9 * own + bend * own * np.abs(own) / own.std()
+        return found
+
+    (cause,) = diagnosed(STATED, bent, 12)
+    assert (cause.effect, cause.location) == (name, f"joint {JOINT + 1}")
+    if name == "motor_constant":
+        assert -0.1 < cause.parameters[0].value < -0.08

@@ -202,13 +202,14 @@ def _settled(search: Search, best: Hypothesis) -> Hypothesis:
 
 
 def named_first(search: Search, best: Hypothesis) -> Hypothesis:
-    """Names in place of a free curve wherever they explain nearly all that it does; its rest may stay beside them.
+    """Names in place of what has none wherever they explain nearly all that it does; a free curve's rest may stay.
 
-    A curve fits every little thing about a real joint; that is no reason not to say what most of it is.
+    A curve fits every little thing about a real joint; that is no reason not to say what most of it is. A law of few
+    numbers fits less by chance, and what it has beyond the name must be next to nothing.
     """
     for effect in best.chosen:
         candidate = search.candidate(effect.candidate)
-        if not candidate.is_curve or not candidate.special_cases or effect not in best.chosen:
+        if not candidate.special_cases or effect not in best.chosen:
             continue
         base = search.without(best, [effect.candidate])
         named = base
@@ -219,7 +220,8 @@ def named_first(search: Search, best: Hypothesis) -> Hypothesis:
                 break
             named = better[0]
         worth = best.log_posterior - base.log_posterior
-        if named.log_posterior - base.log_posterior > NOISE.nearly_all * worth:
-            both = search.evaluated((*named.chosen, effect), named)
-            best = max(named, both, key=lambda hypothesis: hypothesis.log_posterior)
+        most = NOISE.nearly_all if candidate.is_curve else NOISE.nearly_all_of_a_law
+        if named.log_posterior - base.log_posterior > most * worth:
+            both = [search.evaluated((*named.chosen, effect), named)] if candidate.is_curve else []
+            best = max([named, *both], key=lambda hypothesis: hypothesis.log_posterior)
     return best

@@ -72,11 +72,18 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 is_curve=cause.is_curve,
                 competes=number not in barred,
                 excludes=excludes,
-                special_cases=frozenset(n for n in excludes - barred if cause.is_curve and not placed[n].is_curve),
+                special_cases=frozenset(n for n in excludes - barred if _contains(cause, placed[n])),
                 side_by_side=2,
             )
         )
     return tuple(candidates)
+
+
+def _contains(one: PlacedCause, other: PlacedCause) -> bool:
+    """Whether a nameless cause holds one that has a name and clashes with it."""
+    if one.is_curve:
+        return not other.is_curve
+    return one.cause is catalogue.CURVE and OWNED.get(one.driver) is other.cause
 
 
 def _plausible(cause: PlacedCause) -> Array | None:
