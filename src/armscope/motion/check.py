@@ -10,6 +10,7 @@ from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
 from armscope.motion.samples.constants import READING
 from armscope.motion.samples.timing import coarse_steps, limits
+from armscope.motion.samples.unread import unread
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
@@ -49,7 +50,8 @@ def doubts_about(motions: Motions) -> list[Notice]:
         InputError: none moves, or temperatures are no arm's.
     """
     _refuse_temperatures(motions)
-    return [*_still_joints(motions), *_one_way(motions), *_cut_off(motions), *_coarse(motions), *_no_speeds(motions)]
+    of_channels = [*_cut_off(motions), *_unread(motions), *_coarse(motions), *_no_speeds(motions)]
+    return [*_still_joints(motions), *_one_way(motions), *of_channels]
 
 
 def runs_in_motion(motions: Motions) -> tuple[Motions, list[Notice]]:
@@ -137,6 +139,19 @@ def _cut_off(motions: Motions) -> list[Notice]:
                 "range, or more slowly."
             )
             notices.append(Notice("cut off", text))
+    return notices
+
+
+def _unread(motions: Motions) -> list[Notice]:
+    idle, notices = unread(motions.run, motions.time, motions.q, motions.effort), []
+    for j in np.flatnonzero(idle.any(axis=0)):
+        rows = np.flatnonzero(idle[:, j])
+        text = (
+            f"{channels(motions)[j]} says {motions.effort[rows[0], j]:.4g} from row {rows[0] + 2} on, in {len(rows)} "
+            f"samples in all, while joint {j + 1} speeds up or turns back: the channel was not read. These samples "
+            f"take no part in the fit of joint {j + 1}. Is it connected, and its message sent all the time?"
+        )
+        notices.append(Notice("not read", text))
     return notices
 
 

@@ -25,6 +25,7 @@ from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch, limits, mended, stretches
+from armscope.motion.samples.unread import unread
 from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.holding_out import (
     Fold,
@@ -198,9 +199,13 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
     train: list[Stretch] = []
     test: list[Stretch] = []
     ends = {run: limits(motions.effort[motions.run == run]) for run in motions.runs}
+    idle = unread(motions.run, motions.time, motions.q, motions.effort)
     for stretch in stretches(motions):
         if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
             cut = (stretch.effort <= ends[stretch.run][0]) | (stretch.effort >= ends[stretch.run][1])
+            own = motions.run == stretch.run
+            at = np.searchsorted(motions.time[own], stretch.time).clip(0, np.count_nonzero(own) - 1)
+            cut |= idle[own][at]
             as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind), cut=cut)
             (test if stretch.run in held_out else train).append(as_torque)
     if not train and test:
