@@ -53,11 +53,12 @@ def test_one_wrist_that_carries_more_is_a_hint_and_all_joints_are_a_problem(good
     assert "problem tau3_nm is" in said(replace(good, effort=5.0 * good.effort))
 
 
-@pytest.mark.parametrize("both", [True, False])
-def test_another_order_of_the_joints_is_told_with_the_order_that_fits(good: Motions, both: bool) -> None:
-    mixed = replace(good, q=good.q[:, ::-1], dq=None, effort=good.effort[:, ::-1] if both else good.effort)
-    words = said(mixed)
-    assert f"{'joints' if both else 'positions'} in the order 3 2 1" in words
+@pytest.mark.parametrize("what", ["joints", "positions", "torques"])
+def test_another_order_of_the_joints_is_told_with_the_order_that_fits(good: Motions, what: str) -> None:
+    q, effort = (each[:, ::-1] for each in (good.q, good.effort))
+    mixed = replace(good, q=good.q if what == "torques" else q, effort=good.effort if what == "positions" else effort)
+    words = said(replace(mixed, dq=None))
+    assert f"{what} in the order 3 2 1" in words
     assert "problem masses explain" in words
 
 

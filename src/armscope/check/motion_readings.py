@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -14,6 +14,9 @@ from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.robot.dynamics import MovingArm
+
+JOINTS, POSITIONS, TORQUES = MISNUMBERED = ("joints", "positions", "torques")
+"""Whose columns may be in another order than the arm's joints."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +37,11 @@ class Samples:
         by = np.where(turning, factor, 1.0)
         return Samples(by * self.q, by * self.dq, by * self.ddq, self.effort)
 
-    def reordered(self, order: tuple[int, ...], effort_too: bool) -> Samples:
-        """With columns in another order: of positions, or of torque, too."""
+    def reordered(self, order: tuple[int, ...], what: str) -> Samples:
+        """With columns in another order: of "positions", of "torques", or of "joints", which is both."""
         to = list(order)
-        return Samples(
-            self.q[:, to], self.dq[:, to], self.ddq[:, to], self.effort[:, to] if effort_too else self.effort
-        )
+        moved = self if what == TORQUES else Samples(self.q[:, to], self.dq[:, to], self.ddq[:, to], self.effort)
+        return moved if what == POSITIONS else replace(moved, effort=self.effort[:, to])
 
 
 def beyond_friction(samples: Samples, rigid: Array) -> Iterator[tuple[Array, Array]]:
@@ -90,11 +92,12 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
             "Call their columns q1_deg ... and dq1_deg_s ....",
         )
         return
-    found = [(explained(few.reordered(order, both), arm), both, order) for order, both in _orders(arm)]
-    best, both, order = max(found, default=(0.0, False, ()))
+    found = [
+        (explained(few.reordered(order, what), arm), what, order) for order in _orders(arm) for what in MISNUMBERED
+    ]
+    best, what, order = max(found, default=(0.0, JOINTS, ()))
     if better(best):
         told = " ".join(f"{j + 1}" for j in order)
-        what = "joints" if both else "positions"
         yield Suspicion(
             "problem",
             f"masses explain {_share(stated)} of the torque, and {_share(best)} with {what} in the order {told}",
@@ -106,12 +109,11 @@ def _share(of: float) -> str:
     return f"{100 * of:.0f} %"
 
 
-def _orders(arm: MovingArm) -> Iterator[tuple[tuple[int, ...], bool]]:
+def _orders(arm: MovingArm) -> Iterator[tuple[int, ...]]:
     """Orders of joints that people mix up: reversed, moved on by one, two swapped."""
     own = tuple(range(arm.n_motors))
     pairs = (dict([pair, pair[::-1]]) for pair in combinations(own, 2))
     swapped = [tuple(pair.get(j, j) for j in own) for pair in pairs]
     for order in dict.fromkeys((own[::-1], (*own[1:], own[0]), (own[-1], *own[:-1]), *swapped)):
         if order != own and np.array_equal(arm.sliding[list(order)], arm.sliding):
-            yield order, True
-            yield order, False
+            yield order
