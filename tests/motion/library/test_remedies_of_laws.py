@@ -11,7 +11,10 @@ import pytest
 from armscope.core.types import Array
 from armscope.motion.library import remedies_of_laws
 from armscope.motion.library.catalogue import cause_named
+from armscope.motion.library.remedies import Fitted
+from armscope.verdict.effects import Parameter
 from tests.motion.cured import JOINT, STATED, Motion, Torque, as_it_is, at_joint, diagnosed, left, told
+from tests.motion.moving import robot
 from tests.seeds import seeds
 
 
@@ -134,3 +137,19 @@ def test_who_adds_what_the_card_says_has_the_torque(kind: str, seed: int) -> Non
     assert known is not None
     assert getattr(known.remedy, "__module__", "") == remedies_of_laws.__name__
     assert left((STATED, case.planted), (STATED, case.read(cause.cure), as_it_is), seed) < 0.03
+
+
+def test_friction_near_rest_that_is_no_bell_is_written_out_with_both_its_terms() -> None:
+    """A bell, and how it changes as it becomes wider."""
+    height, wider, speed = Parameter("stribeck", "N m", 0.8, 0.1), Parameter("wider", "N m", -0.5, 0.1), 0.3
+    numbers = (height, wider, Parameter("speed", "rad/s", speed, float("nan")))
+    cure = remedies_of_laws.near_rest(Fitted("", numbers, robot()))
+    first, second = told(cure.replace("2 x", ""), "model: ")[:2]
+    assert cure.endswith("× sign of the speed, where x is (speed / (0.3 rad/s))².")
+    v = np.linspace(0, 1, 50)
+    bell = lambda at: np.exp(-((v / at) ** 2))
+    x = (v / speed) ** 2
+    by_wider = (bell(speed * 1.0001) - bell(speed / 1.0001)) / (2 * np.log(1.0001))
+    assert np.allclose((first + second * 2 * x) * np.exp(-x), 0.8 * bell(speed) - 0.5 * by_wider, atol=1e-6)
+    plain = remedies_of_laws.near_rest(Fitted("", (height, Parameter("wider", "N m", 0.1, 0.1), numbers[2]), robot()))
+    assert near_rest(plain) is not None

@@ -45,6 +45,7 @@ def test_a_number_stands_with_half_its_interval_in_a_readable_unit() -> None:
 
 TIMES, HAND = Parameter("times", "", -1.0, 0.1), "the model's hand is not on the arm"
 MASS, MOMENT = Parameter("mass", "kg", -0.3, 0.5), Parameter("mx", "kg m", 0.4, 0.1)
+WIDER = Parameter("wider", "N m", 1.0, 0.1)
 HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
 
 
@@ -59,6 +60,8 @@ HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
         (cause("motor_constant", Parameter("gain", "", 0.085, 0.01)), "joint 4 is 8.5 ± 2.0 % too large"),
         (cause("torque_offset", Parameter("offset", "N m", -0.2, 0.01)), "reads 0.200 ± 0.020 N m too low"),
         (cause("asymmetric_friction", Parameter("viscous_difference", "N m s/rad", -3, 0.1)), "lower forward"),
+        (cause("stribeck_friction", Parameter("stribeck", "N m", 0.5, 0.1), WIDER), "0.50 ± 0.20 N m higher near rest"),
+        (cause("stribeck_friction", Parameter("stribeck", "N m", -0.1, 0.1), WIDER), "not what it is farther from it"),
         (cause("attached_body", TIMES, location="hand"), HAND),
         (cause("attached_body", replace(TIMES, value=-1.5), location="hand"), "1.50 ± 0.20 times what it weighs"),
         (cause("payload_error", HEAVIER, title=IN_RUN), "in run b the arm carries 2.00 ± 0.20 kg more"),

@@ -11,12 +11,15 @@ from collections.abc import Sequence
 
 from armscope.motion.library.clauses import amount
 from armscope.motion.library.remedies import Fitted
-from armscope.verdict.effects import Parameter
+from armscope.verdict.effects import INTERVAL, Parameter
 
 
 def near_rest(fitted: Fitted) -> str:
-    """Friction that falls from its value near rest."""
-    extra, speed = fitted.numbers["stribeck"], fitted.numbers["speed"]
+    """Friction that falls from its value near rest, and how else it falls where the bell alone is not enough."""
+    extra, wider, speed = (fitted.numbers[name] for name in ("stribeck", "wider", "speed"))
+    if abs(wider.value) > INTERVAL * wider.stderr:
+        both = f"({amount(extra, sign=True)} {amount(wider, sign=True)} × 2 x) × exp(-x) × sign of the speed"
+        return f"Add a term to the friction model: {both}, where x is (speed / ({speed.value:.4g} {speed.unit}))²."
     falls = f"exp(-(speed / ({speed.value:.4g} {speed.unit}))²)"
     return f"Add a Stribeck term to the friction model: {amount(extra, sign=True)} × {falls} × sign of the speed."
 
