@@ -39,7 +39,7 @@ def test_names_that_are_worth_nothing_do_not_stand_in_the_place_of_masses() -> N
     large = replace(small, share=0.3, minor=False)
     assert answer_of([large], UnexplainedTorque(False), errors) == ("explained", True)
     assert "30 % of what friction and rotors leave" in headline([large], errors)
-    assert "off without a name: 97 %" in headline([large], errors)
+    assert "off without a name add 97 %" in headline([large], errors)
 
 
 def beside() -> FoundCause:

@@ -170,7 +170,7 @@ class HeldOutErrors:
         anew: with causes found without that motion.
         named: with the causes that all of the motion names, their sizes found without it.
         masses: share of a link's mass, and so on, by which those are off that have no name.
-        by_masses: share of what friction and rotors leave that these explain, in the motion fitted.
+        by_masses: share of what friction and rotors leave that these add to what has a name, in the motion fitted.
     """
 
     without: float
@@ -268,7 +268,7 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
     causes = "; ".join(
         f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
-    unnamed = f"Masses of the links that are off without a name: {percent(errors.by_masses)}. "
+    unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}. "
     unnamed = unnamed if errors.by_masses >= TELLING.minor_share else ""
     return f"{capitalised(causes)}. {_further(rest)}{unnamed}{beyond}{errors.words()}"
 

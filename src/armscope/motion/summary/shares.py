@@ -5,19 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.inference.shapley import shares
+from armscope.motion.constants import TELLING
 from armscope.motion.fitting.selected import SelectedCauses
 
 
 def shares_of(selected: SelectedCauses) -> tuple[list[float], float]:
     """Shares of what friction and rotors leave.
 
-    Masses that are off unnamed come in like a cause: what a name and they explain alike, they share.
+    Masses that are off unnamed come in like a cause: what a name and they explain alike, they share. Of them is told
+    what no name of the story explains: beside a body that is not on the arm they would pass for as much as it.
 
     Args:
         selected: a selection.
 
     Returns:
-        Of each chosen cause; and of masses that are off without a name, 0 where none are.
+        Of each chosen cause; and what masses that are off without a name add to those that are told, 0 where none are.
     """
     best, problem = selected.best, selected.problem
     ridge = np.full(len(problem.scale), 1e12)
@@ -26,6 +28,9 @@ def shares_of(selected: SelectedCauses) -> tuple[list[float], float]:
     inertial = selected.rows.layout.inertial
     masses = np.intersect1d(inertial, best.columns)
     base = np.setdiff1d(best.columns, np.concatenate([masses, *members]))
-    both = [*members, masses] if len(masses) else members
-    found = [float(share) for share in shares(problem.equations, ridge, base, both)]
-    return found[: len(members)], sum(found[len(members) :])
+    if not len(masses):
+        return shares(problem.equations, ridge, base, members).tolist(), 0.0
+    explained = shares(problem.equations, ridge, base, [*members, masses]).tolist()[:-1]
+    told = [columns for columns, share in zip(members, explained, strict=True) if share >= TELLING.minor_share]
+    first = np.concatenate([base, *told])
+    return explained, float(shares(problem.equations, ridge, base, [first, masses], last=(1,))[1])
