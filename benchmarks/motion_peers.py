@@ -21,8 +21,8 @@ import pandas as pd
 import pinocchio as pin
 from benchmarks.diagnosis import ONE_THREAD
 
+from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
-from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.samples.preparation import Preparation, parts, preparation

@@ -15,9 +15,9 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.first_look import first_look
+from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import build_rows
 from armscope.motion.fitting.selection import select_causes
-from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.weights import estimate_weights, fitted_together, weighed
 from armscope.motion.library import catalogue

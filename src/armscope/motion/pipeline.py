@@ -16,7 +16,7 @@ from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import model_so_far, select_causes
+from armscope.motion.fitting.selection import estimated_model, select_causes
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
@@ -162,7 +162,7 @@ def diagnose_motion(
     progress("measuring on motion that took no part", 0.75)
     apart = None
     if test:
-        apart = build_rows(layout, test, how, model_so_far(layout, selected.coefficients))
+        apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients))
     sure = sureness(selected, _carried(motions))
     notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)

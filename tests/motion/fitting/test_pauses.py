@@ -8,9 +8,9 @@ import pinocchio as pin
 import pytest
 
 from armscope.core.types import Array
+from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.pauses import Pauses, pauses_of
 from armscope.motion.fitting.rows import MotionRows, build_rows
-from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.layout import OWN, TorqueLayout
 from armscope.motion.pipeline import diagnose_motion

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.rows import build_rows
-from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
@@ -58,7 +58,7 @@ def test_what_a_gain_is_of_is_stated_and_never_fitted() -> None:
     kinds = {each.columns.kind: each for each in causes if isinstance(each.columns, Law)}
     layout = TorqueLayout(arm, tuple(kinds[kind] for kind in ("torque", "powers of torque", "curve over load")), True)
 
-    def readings(model: SoFar) -> Array:
+    def readings(model: Estimate) -> Array:
         rows = build_rows(layout, laid, how, model)
         gain, powers, curve = layout.columns
         at = np.concatenate([layout.gains[JOINT : JOINT + 1], gain, powers[:1], curve])

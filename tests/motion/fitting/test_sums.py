@@ -7,8 +7,8 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
-from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.sums import Earlier, sums_by_joint
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes

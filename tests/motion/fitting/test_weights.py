@@ -10,9 +10,9 @@ from scipy.signal import lfilter
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import select_causes
-from armscope.motion.fitting.so_far import stated_model
 from armscope.motion.fitting.weights import TorqueWeights, autocorrelation_time, noise_of
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes

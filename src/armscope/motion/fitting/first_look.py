@@ -10,9 +10,9 @@ from scipy.linalg import orth
 
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
+from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
-from armscope.motion.fitting.selection import model_so_far
-from armscope.motion.fitting.so_far import SoFar, stated_model
+from armscope.motion.fitting.selection import estimated_model
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.samples.preparation import Preparation, parts
@@ -30,7 +30,7 @@ class FirstLook:
     modelled, left: (K, m) torque that the model and those waves explain, and what they leave, N m.
     """
 
-    model: SoFar
+    model: Estimate
     waves: Waves
     modelled: Array
     left: Array
@@ -57,7 +57,7 @@ def first_look(arm: MovingArm, stretch: Stretch, how: Preparation) -> FirstLook:
         ordinary = rows.columns[j][rows.moving[:, j]].astype(np.float64)
         waves[int(j)], rippled = _waves(stretch, how, int(j), left, (rows.moving[:, j], ordinary))
         modelled[:, j] += rippled
-    model = replace(model_so_far(layout, coefficients), of_bodies=False)
+    model = replace(estimated_model(layout, coefficients), of_bodies=False)
     return FirstLook(model, waves, *(_in_motion(rows, torque) for torque in (modelled, rows.torque - modelled)))
 
 

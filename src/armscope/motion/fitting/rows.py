@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
+from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.fitting.pauses import Pauses, joined, pauses_of, stands
-from armscope.motion.fitting.so_far import SoFar
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.library.laws import FOLLOWS_MODEL, Law
@@ -129,7 +129,7 @@ def build_rows(
     layout: TorqueLayout,
     stretches: Sequence[Stretch],
     how: Preparation,
-    model: SoFar,
+    model: Estimate,
     progress: Progress = unheard,
     before: MotionRows | None = None,
 ) -> MotionRows:
@@ -202,7 +202,7 @@ class _Piece:
     """Some samples, with what the model says of them, on the way to rows."""
 
     def __init__(
-        self, layout: TorqueLayout, samples: StatedSamples, regressor: Array | None, how: Preparation, model: SoFar
+        self, layout: TorqueLayout, samples: StatedSamples, regressor: Array | None, how: Preparation, model: Estimate
     ) -> None:
         self.layout, self.samples, self.how, self.regressor = layout, samples, how, regressor
         self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain

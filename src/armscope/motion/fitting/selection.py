@@ -17,10 +17,10 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.gains import gain_of, meeting_gain
+from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.so_far import SoFar, stated_model
 from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
 from armscope.motion.fitting.torque_delay import Between
@@ -33,7 +33,7 @@ from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
 
 
-def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
+def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
     delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
@@ -50,7 +50,7 @@ def model_so_far(layout: TorqueLayout, coefficients: Array) -> SoFar:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
-    return SoFar(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
+    return Estimate(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
 
 
 def select_causes(
@@ -59,7 +59,7 @@ def select_causes(
     how: Preparation,
     block_of: Sequence[str],
     progress: Progress,
-    model: SoFar | None = None,
+    model: Estimate | None = None,
 ) -> SelectedCauses:
     """The causes that the evidence asks for.
 
@@ -96,7 +96,7 @@ def select_causes(
         finer = refined(selected, between)
         if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
             break
-        model = model_so_far(layout, selected.coefficients)
+        model = estimated_model(layout, selected.coefficients)
         layout = finer or layout
     assert selected is not None
     return selected

@@ -23,9 +23,9 @@ from armscope.inference.search import Search
 from armscope.measurement.robust import huber_weights
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.consistency import agreement_of
+from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.fitting.selected import coefficients_of
 from armscope.motion.fitting.selection import blocks_of
-from armscope.motion.fitting.so_far import SoFar
 from armscope.motion.fitting.weights import autocorrelation_time
 from armscope.motion.library.causes import Moment, PlacedCause, Seen
 from armscope.motion.library.twist_catalogue import clash, place_twists
@@ -90,7 +90,7 @@ class SelectedTwist:
         return coefficients_of(self.problem, self.best)
 
 
-def twist_rows(seen: Seen, stretches: Sequence[Stretch], how: Preparation, model: SoFar) -> list[TwistRows]:
+def twist_rows(seen: Seen, stretches: Sequence[Stretch], how: Preparation, model: Estimate) -> list[TwistRows]:
     """Rows of every joint whose link is recorded.
 
     Args:
@@ -114,7 +114,7 @@ class _Part:
     torque: Array
 
     @classmethod
-    def of(cls, arm: MovingArm, signals: Signals, how: Preparation, model: SoFar) -> _Part:
+    def of(cls, arm: MovingArm, signals: Signals, how: Preparation, model: Estimate) -> _Part:
         moment = moment_of_links(arm, signals, model, how.rate / signals.stride)
         return cls(signals, moment, how.low_passed(moment.rigid, signals.kept, signals.stride))
 

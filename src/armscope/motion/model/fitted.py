@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.constants import PRIOR
-from armscope.motion.fitting.so_far import SoFar
+from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.dry_friction import DryFriction, own_columns
@@ -51,7 +51,7 @@ class MotionModel:
     response: float = 0.0
     links: tuple[FittedCause, ...] = ()
 
-    def followed(self) -> SoFar:
+    def followed(self) -> Estimate:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
         delay = np.zeros(self.arm.n_motors)
         for cause in self.causes:
@@ -66,7 +66,7 @@ class MotionModel:
             if follows_motion(each.placed.columns, each.placed.joints)
         )
         background = self.joints[:, :CAUSES_OF_OWN]
-        return SoFar(self.inertial + everywhere, background, delay, of_runs, laws=laws)
+        return Estimate(self.inertial + everywhere, background, delay, of_runs, laws=laws)
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""

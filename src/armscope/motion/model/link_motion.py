@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.motion.fitting.so_far import SoFar
+from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.laws import derived
 from armscope.motion.library.twist_catalogue import ENCODER_OFFSET
@@ -19,7 +19,7 @@ from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
 
-def moment_of_links(arm: MovingArm, signals: Signals, model: SoFar, rate: float) -> Moment:
+def moment_of_links(arm: MovingArm, signals: Signals, model: Estimate, rate: float) -> Moment:
     """What laws of a link's place are functions of: torque is that through the joints, and nothing else.
 
     Args:
@@ -36,7 +36,9 @@ def moment_of_links(arm: MovingArm, signals: Signals, model: SoFar, rate: float)
     return Moment(signals, torque, torque, None, rate, bodies)
 
 
-def following(arm: MovingArm, causes: Sequence[FittedCause], signals: Signals, model: SoFar, cutoff: float) -> Signals:
+def following(
+    arm: MovingArm, causes: Sequence[FittedCause], signals: Signals, model: Estimate, cutoff: float
+) -> Signals:
     """The same samples with their links where causes put them, unless they were recorded.
 
     A link's place hangs on its torque, and that on its place: each is found from the other, twice.

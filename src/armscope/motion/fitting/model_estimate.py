@@ -1,4 +1,4 @@
-"""The model so far, of which further columns are functions: loads, delays, gains follow it from round to round."""
+"""The estimate of the model at which columns are formed: load, delay and gain follow it from round to round."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from armscope.robot.dynamics import MovingArm
 
 
 @dataclass(frozen=True, eq=False)
-class SoFar:
-    """The model so far, of which further columns are functions.
+class Estimate:
+    """The model as the last round left it: further columns are functions of it.
 
     Attributes:
         inertial: (10 n,) inertial parameters.
@@ -49,6 +49,6 @@ class SoFar:
         return replace(moment, predicted=predicted)
 
 
-def stated_model(arm: MovingArm) -> SoFar:
+def stated_model(arm: MovingArm) -> Estimate:
     """What robot.yaml states."""
-    return SoFar(arm.inertial, np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors))
+    return Estimate(arm.inertial, np.nan_to_num(arm.stated_background), np.zeros(arm.n_motors))
