@@ -158,7 +158,9 @@ wildcard_constraints:
     set=r"\w+",
 
 
-FLEET = f"{RESULTS}/fleet/{Path(CONFIG.fleet).stem}"
+# two fleets may be called fleet.csv: the folder tells them apart
+FLEET_IN = [name for name in (Path(CONFIG.fleet).parent.name,) if name not in ("", "config")]
+FLEET = f"{RESULTS}/fleet/{'-'.join([*FLEET_IN, Path(CONFIG.fleet).stem])}"
 ARMS_PER_JOB = 30  # a job starts once, and an arm takes one or two seconds
 
 
