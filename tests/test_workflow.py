@@ -147,3 +147,11 @@ def test_no_job_of_a_cluster_is_shorter_than_its_start(profile):
         together[group] *= count
     grows = {"scored"}  # what scores three dozen worlds here scores thousands there
     assert set(together.index[together < jobs_measured.START_S]) <= grows
+
+
+@pytest.mark.parametrize(("table", "name"), [("config/fleet.csv", "fleet"), ("here/fleet.csv", "here-fleet")])
+def test_two_fleets_of_one_file_name_have_folders_of_their_own(finished, table, name):
+    (finished / "here").mkdir(exist_ok=True)
+    shutil.copy(ROOT / "config" / "fleet.csv", finished / "here")
+    shutil.copytree(ROOT / "examples", finished / "examples", dirs_exist_ok=True)
+    assert f"/fleet/{name}/report.html" in snakemake(finished, "-n", "fleet", "--config", f"fleet={table}")

@@ -149,7 +149,7 @@ def _unread(motions: Motions) -> list[Notice]:
         text = (
             f"{channels(motions)[j]} says {motions.effort[rows[0], j]:.4g} from row {rows[0] + 2} on, in {len(rows)} "
             f"samples in all, while joint {j + 1} speeds up or turns back: the channel was not read. These samples "
-            f"take no part in the fit of joint {j + 1}. Is it connected, and its message sent all the time?"
+            f"take no part in the fit of joint {j + 1}. See whether it is connected."
         )
         notices.append(Notice("not read", text))
     return notices

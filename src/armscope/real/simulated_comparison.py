@@ -121,7 +121,7 @@ def simulate_recordings(
 def compare_on_simulated_arms(
     arm: Arm, one: Recordings, other: Recordings, joints: Sequence[int], arms: int, seed: int
 ) -> pd.DataFrame:
-    """DrawnArm arms recorded in two runs and compared.
+    """Drawn arms recorded in two runs and compared.
 
     Args:
         arm: the nominal arm.

@@ -180,9 +180,6 @@ class ReadingRules(Constants):
     unread_s: float = constant(
         0.5, "for which a channel repeats one value that was not read", "judgement: fifty samples at 100 Hz", unit="s"
     )
-    unread_rad: float = constant(
-        0.02, "by which its joint then departs from turning evenly", "judgement: beyond servo noise", unit="rad or m"
-    )
     rounding: float = constant(
         1e-9, "of a channel's range, below which a change is rounding of the computer", "derived: of double precision"
     )

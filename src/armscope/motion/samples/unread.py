@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.samples.constants import READING
 from armscope.motion.samples.timing import coarse_steps
 
@@ -34,5 +35,5 @@ def unread(run: NDArray[np.str_], time: Array, q: Array, effort: Array) -> NDArr
         for one, other in zip(first[long], last[long], strict=True):
             rows = slice(one, other + 1)
             evenly = np.interp(time[rows], time[[one, other]], q[[one, other], j])
-            found[rows, j] = np.abs(q[rows, j] - evenly).max() > READING.unread_rad
+            found[rows, j] = np.abs(q[rows, j] - evenly).max() > LIBRARY.still_rad
     return found
