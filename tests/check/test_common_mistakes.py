@@ -1,10 +1,12 @@
 """Common mistakes are named by what they are."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from armscope.check.report import check
 from armscope.robot.arm import build_arm
 from tests.check.test_check import problems
 
@@ -78,6 +80,19 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
     found = problems(mistake(sound), arm)
     assert len(found) == 1
     assert words in found[0]
+
+
+def test_a_row_that_fits_nobody_is_told_with_its_id_and_by_how_much(arm, sound):
+    """A digit mistyped in one point; and a third of the rows is a pattern, of which no row is to be deleted."""
+    moved = sound.positions + np.where(np.arange(len(sound)) == 10, 0.12, 0)[:, None] * [0, 1, 0]
+    (hint,) = check(replace(sound, positions=moved), arm).suspicions
+    told = re.fullmatch(r"1 row lies (\S+) mm from where all others put the tool: a: 11\. .*", hint.text())
+    assert hint.weight == "hint"
+    assert told is not None
+    assert float(told[1]) == pytest.approx(120, rel=0.02)
+    far = np.random.default_rng(2).normal(0, 0.05, sound.positions.shape) * (np.arange(len(sound)) % 3 == 0)[:, None]
+    some = check(replace(sound, positions=sound.positions + far), arm).suspicions
+    assert not [each for each in some if "all others" in each.text()]
 
 
 @pytest.mark.parametrize(

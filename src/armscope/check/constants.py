@@ -66,6 +66,9 @@ class TrialRules(Constants):
         "times the usual misfit beyond which two rows may have exchanged their points",
         "judgement: far beyond what calibration errors do",
     )
+    most_alone: float = constant(
+        0.1, "share of rows far from all others beyond which they are a pattern", "judgement: as of bad shots"
+    )
     rows_for_exchange: int = constant(
         20_000, "rows among which exchanged ones are looked for", "judgement: time", unit="rows"
     )

@@ -21,6 +21,7 @@ from armscope.check.nominal_arms import better_arm
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.sampling import spread_evenly
+from armscope.core.types import Indices
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.recordings.columns import counted_from_zero
@@ -71,7 +72,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         )
     else:
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
-        found += _exchanged_rows(arm, recordings)
+        found += _rows_far_off(arm, recordings)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 
         turned = orientation_mistakes(rows, state, some.orientation)
@@ -186,8 +187,8 @@ def _all_tried(arm: Arm, table: Recordings) -> list[tuple[float, Trial]]:
     return [(_tried(trial.arm(arm), trial.undo(table))[0] if left <= limit else left, trial) for left, trial in tried]
 
 
-def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
-    """Pairs or rings of rows whose points fit each other's angles."""
+def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
+    """Rows whose points fit each other's angles, in pairs or rings, and rows whose points fit nobody's."""
     some = recordings.rows(slice(0, TRIALS.rows_for_exchange))
     rows = set_up(arm, some)
     state = placed(rows, TRIALS.steps)
@@ -197,7 +198,7 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
     distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
     far = np.flatnonzero(distance > TRIALS.exchanged * usual)
-    if not 2 <= len(far) <= 500:
+    if not 1 <= len(far) <= 500:
         return []
     predicted = some.positions[far] - residuals[far]
     between = np.linalg.norm(predicted[:, None] - some.positions[far][None], axis=2)
@@ -206,12 +207,25 @@ def _exchanged_rows(arm: Arm, recordings: Recordings) -> list[Suspicion]:
 
     angles_of, points_of = linear_sum_assignment(between)
     matched = (between[angles_of, points_of] < 6 * usual) & (angles_of != points_of)
-    if not matched.any():
-        return []
-    names = [f"{some.run[row]}: {some.id[row]}".removeprefix(": ") for row in far[angles_of[matched]]]
-    more = ", ..." if len(names) > 10 else ""
-    statement = f"{len(names)} rows seem to have exchanged their points: " + ", ".join(names[:10]) + more
-    return [Suspicion("problem", statement, "Their points fit each other's joint angles.")]
+    exchanged, alone = far[angles_of[matched]], far[angles_of[~matched]]
+    found = []
+    if len(exchanged):
+        statement = f"{len(exchanged)} rows seem to have exchanged their points: {_ids(some, exchanged)}"
+        found.append(Suspicion("problem", statement, "Their points fit each other's joint angles."))
+    if 0 < len(alone) <= TRIALS.most_alone * len(some):
+        alone = alone[np.argsort(-distance[alone])]
+        number = "1 row lies" if len(alone) == 1 else f"{len(alone)} rows lie, the furthest first,"
+        off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
+        statement = f"{number} {off} from where all others put the tool: {_ids(some, alone)}"
+        cure = "Mistyped, or measured while the arm moved? Mend it or leave it out; a diagnosis gives it no weight."
+        found.append(Suspicion("hint", statement, cure))
+    return found
+
+
+def _ids(table: Recordings, rows: Indices) -> str:
+    """Rows by run and id, ten at most."""
+    names = [f"{table.run[row]}: {table.id[row]}".removeprefix(": ") for row in rows[:10]]
+    return ", ".join(names) + (", ..." if len(rows) > 10 else "")
 
 
 def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:

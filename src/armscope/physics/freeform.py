@@ -231,11 +231,17 @@ UNKNOWN = Effect(
     ),
     clauses=(
         "{location} scatters by {scatter}: play of {play}, if the rows stand in the order in which they were measured",
+        "{location} scatters by {scatter}: after motion to one side and to the other it stands {overrun} apart, ahead "
+        "of its readings, if rows were measured in this order",
         "{location} scatters by {scatter} for a reason that the table does not record",
         "something unexplained at {location} follows the {driver}, by up to {reaches}",
         "something unexplained at {location} follows the {driver}",
     ),
-    labels={"scatter": "scatter (1 sigma)", "play": "play, by the order of rows"},
+    labels={
+        "scatter": "scatter (1 sigma)",
+        "play": "play, by the order of rows",
+        "overrun": "apart after motion to either side, by the order of rows",
+    },
     atlas=_column,
     several=True,
 )

@@ -77,7 +77,7 @@ def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(
 
 @pytest.mark.parametrize("other", ["shuffled", "reversed sense"])
 def test_play_is_not_told_where_the_order_of_rows_shows_none(arm: Arm, other: str) -> None:
-    """Rows that somebody sorted say nothing; a joint that runs ahead of its command has no play."""
+    """Rows that somebody sorted say nothing; a joint that stands ahead of its reading has no play."""
     table = with_play(arm, -GAP if other == "reversed sense" else GAP, 30)
     if other == "shuffled":
         table = table.rows(np.random.default_rng(1).permutation(len(table)))
@@ -85,6 +85,15 @@ def test_play_is_not_told_where_the_order_of_rows_shows_none(arm: Arm, other: st
     verdict = diagnose(arm, table, QUICK)
     assert "play" not in told(verdict)
     assert IN_ORDER not in headline(verdict)
+
+
+def test_a_joint_that_goes_on_after_it_was_read_is_told_as_that(arm: Arm) -> None:
+    verdict = diagnose(arm, with_play(arm, -GAP, 30), QUICK)
+    value, stderr = told(verdict)["overrun"]
+    assert abs(value - GAP) < 3 * stderr
+    (scatter,) = [each for each in verdict.effects if each.effect == "unknown"]
+    assert "come to rest before its angles are read" in scatter.cure
+    assert "ahead of its readings" in verdict.headline
 
 
 def test_sides_follow_the_clock_of_each_run_and_not_where_a_row_stands(arm: Arm) -> None:

@@ -21,6 +21,8 @@ NOTHING = "nothing in the table"
 """What scatter follows."""
 _CONFIRM = "Record the side of approach, speed, load and temperature, and repeat one pose many times."
 _CURE = "Find what the scatter follows (play, a loose coupling or encoder) before compensating anything."
+OVERRUN = "overrun"
+"""Name of the size by which a joint stands ahead of what was read, apart after motion to either side."""
 REASONLESS = "The joint stands a little elsewhere each time, for a reason that the table does not record."
 
 
@@ -65,12 +67,19 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
             confirm=_CONFIRM
             if play is None
             else f"Measure one pose many times, coming to it from both sides of {location}.",
-            cure=_CURE if play is None else _with_sides(len(moved)),
+            cure=_cure(play, len(moved)),
         )
 
 
-def _with_sides(motors: int) -> str:
-    """What names the play, and gives its compensation."""
+def _cure(play: Parameter | None, motors: int) -> str:
+    """What names the play, and gives its compensation; or what brings angles and points to one moment."""
+    if play is None:
+        return _CURE
+    if play.name == OVERRUN:
+        return (
+            "Let the arm come to rest before its angles are read, as before its point is measured, and measure again. "
+            "Until then change nothing."
+        )
     return (
         f"Write the side from which every joint came into columns approach1 ... approach{motors} (-1 or +1, 0 where it "
         "did not move) and diagnose again: play then gets its name, and can be compensated. Until then change nothing."
@@ -107,7 +116,9 @@ def sides_by_order(recordings: Recordings, motor: int) -> Array:
 
 
 def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]:
-    """The gaps by which motors stand apart after motion to either side, where the order of rows shows one clearly.
+    """By how much motors stand apart after motion to either side, where the order of rows shows it clearly.
+
+    Play leaves a joint behind its motor. One that stands ahead of its reading went on after it was read.
 
     Each is fitted with all else, of which what follows the angle follows the side a little, too; and without the
     others, for all of which the rows are summed up once.
@@ -129,13 +140,20 @@ def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]
         at = np.append(np.arange(len(fit.precision)), number)
         inverse = np.linalg.inv(sums.G[np.ix_(at, at)] + ridge)
         size, stderr = float(inverse[-1] @ sums.b[at]), fit.noise * float(np.sqrt(inverse[-1, -1]))
-        if size > TELLING.play_by_order * stderr:
-            plays[Location.of(gap.location).index + 1] = Parameter("play", "rad", size, stderr)
+        if abs(size) > TELLING.play_by_order * stderr:
+            name = "play" if size > 0 else OVERRUN
+            plays[Location.of(gap.location).index + 1] = Parameter(name, "rad", abs(size), stderr)
     return plays
 
 
 def _by_order(play: Parameter) -> str:
     times = f"{play.value / play.stderr:.0f} times its standard error"
+    if play.name == OVERRUN:
+        return (
+            f"If rows were measured in this order, the joint stands further on than its angle says, the way it came: "
+            f"motion to one side and to the other leave it {play.value * 1e3:.2g} mrad apart, {times}. Play would "
+            f"leave it behind; its angles seem to have been read before it had come to rest, or it creeps on."
+        )
     return (
         f"If the rows stand in the order in which they were measured, it is play: after motion to one side the joint "
         f"stands apart from where it stands after the other by {play.value * 1e3:.2g} mrad, {times}."

@@ -46,10 +46,20 @@ def improvement(verdict: Verdict) -> str:
         noise = f"; the noise is {millimetres(verdict.noise_mm)}" if math.isfinite(verdict.noise_mm) else ""
         spread, everything = verdict.held_out.spread, verdict.held_out.after_all_rows
         apart = f" (± {rounded(spread)} mm from part to part)" if math.isfinite(spread) else ""
-        shots = f" With the suspected bad shots it is {millimetres(everything)}." if everything > 1.05 * after else ""
+        shots = _with_bad_shots(verdict) if everything > 1.05 * after else ""
         falls = f"{start}falls from {millimetres(before)} to {millimetres(after)} RMS per axis{apart}{noise}.{shots}"
         return f"{falls}{_turns_improved(verdict)}"
     return f"{start}stays where it is: {millimetres(before)} before, {millimetres(after)} after."
+
+
+def _with_bad_shots(verdict: Verdict) -> str:
+    """The error that counts them, and the row that lies furthest off: one that was mistyped is all of it."""
+    error = f" With the suspected bad shots it is {millimetres(verdict.held_out.after_all_rows)}"
+    worst = max(verdict.suspects, key=lambda row: row.residual_mm, default=None)
+    if worst is None:
+        return f"{error}."
+    row = f"row {worst.id}" + (f" of run {worst.run}" if worst.run else "")
+    return f"{error}: {row} lies {millimetres(worst.residual_mm)} from where the model puts it."
 
 
 def _context(subject: Subject) -> dict[str, Any]:
