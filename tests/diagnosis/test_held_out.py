@@ -62,6 +62,16 @@ def test_sums_by_block_are_those_of_the_round_in_which_the_selection_rests() -> 
     np.testing.assert_allclose(together.b, found.problem.equations.b, atol=1e-9 * together.n)
 
 
+def test_runs_at_the_same_poses_are_held_out_by_pose() -> None:
+    """Whoever learned what is wrong with a pose from two reflectors foretells the third, and no other pose."""
+    arm = arm_named("six-axis")
+    once = one_run(arm, 50, 16)
+    own = replace(once.rows(np.arange(150) % 50), run=np.repeat(["1", "2", "3"], 50))
+    assert split_rows(own, np.random.default_rng(0)).grouped_by == "configuration"
+    angles = own.motor_angles + 1e-2 * np.random.default_rng(1).normal(size=own.motor_angles.shape)
+    assert split_rows(replace(own, motor_angles=angles), np.random.default_rng(0)).grouped_by == "run"
+
+
 def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:
     """The bases of the runs lie metres apart: only a base fitted to the held-out rows can meet them."""
     arm = arm_named("six-axis")

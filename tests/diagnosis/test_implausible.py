@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from armscope.core.types import unheard
-from armscope.diagnosis.implausible import implausible_effects
+from armscope.diagnosis.implausible import implausible_effects, more_plausible
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.registration import fit_frames
+from armscope.inference.evidence import evaluate
 from armscope.inference.problem import SelectedEffect
 from armscope.measurement.noise import Noise
 from armscope.physics.effect import Part
@@ -59,3 +60,17 @@ def test_a_value_beyond_what_arms_show_is_no_name_where_the_tool_misses_by_less(
     # as a fit leaves it beside gears' waves that are as large: their sum is what the rows hold
     told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([fitted_ratio])),)))
     assert implausible_effects(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])
+
+
+@pytest.mark.parametrize(("joint", "gives_way"), [("joint 6", True), ("joint 3", False)])
+def test_a_value_beyond_what_arms_show_gives_way_to_a_name_that_says_the_same(joint: str, gives_way: bool):
+    """The zero of joint 6 hardly moves a tool on its axis: other names say as much. Nothing does of joint 3."""
+    loop, number = named({("joint_offset", joint): [3e-4]}, nested=False)
+    loop.best = evaluate(loop.problem, loop.best.chosen, loop.best.background, loop.best.noise)
+    fit = loop._fitted(loop.best)
+    (part,) = fit.model.parts
+    told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([0.075])),)))
+    other, fitted = more_plausible(loop.problem, loop.best, told, loop._fitted)
+    assert (number not in other.candidates) == gives_way
+    assert bool(fitted.model.parts[0].implausible) != gives_way
+    assert more_plausible(loop.problem, loop.best, fit, loop._fitted) == (loop.best, fit)

@@ -20,6 +20,7 @@ from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
+from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
 from armscope.measurement.robust import scale_of
@@ -247,7 +248,10 @@ def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Su
         if _share_left(rows, placed(rows, TRIALS.steps)) > TRIALS.fits:
             return []
     statement = f"the tool seems to have moved between runs, {found.apart}"
-    return [Suspicion("hint", statement, f"With one of its own per run {found.own_mm:.3g} mm are left: free it there.")]
+    cure = f"With one of its own per run {found.own_mm:.3g} mm are left: free it there."
+    if np.bincount(same_configuration(table.motor_angles)).max() > 1:
+        cure += " Or are these reflectors, seen at the same poses? Their names belong into column target."
+    return [Suspicion("hint", statement, cure)]
 
 
 def _too_coarse(arm: Arm, misfit: float) -> list[Suspicion]:

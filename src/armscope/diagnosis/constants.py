@@ -166,6 +166,11 @@ class FoldRules(Constants):
         "derived: their RMS is within 0.3 % of that of all rows",
         unit="rows",
     )
+    seen_elsewhere: float = constant(
+        0.5,
+        "share of rows at other runs' poses from which no run is held out whole",
+        "judgement: half of them are known",
+    )
     fewest_rows_per_run: int = constant(
         30, "of every run, for whole runs to be held out", "judgement: fewer do not fit a base", unit="rows"
     )

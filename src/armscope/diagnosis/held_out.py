@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
@@ -42,15 +43,17 @@ class RowSplit:
 def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
     """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.
 
-    Runs are held out whole where there are at least three with at least thirty rows each.
+    Runs are held out whole where there are at least three with at least thirty rows each, of poses of their own: one
+    that visits the others' poses would be foretold by what was learned there.
     """
     runs, which_run, per_run = np.unique(recordings.run, return_inverse=True, return_counts=True)
+    pose = same_configuration(recordings.motor_angles)
     by_run = (
         len(runs) >= FOLDING.fewest_runs
         and per_run.min() >= FOLDING.fewest_rows_per_run
         and len(runs) <= FOLDING.blocks
+        and np.mean(_seen_elsewhere(pose, which_run)) < FOLDING.seen_elsewhere
     )
-    pose = same_configuration(recordings.motor_angles)
     count = int(pose.max()) + 1
     order = rng.permutation(count)
     if not by_run:
@@ -59,6 +62,13 @@ def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
     pieces = max(1, FOLDING.blocks // len(runs))
     of_row = which_run * pieces + (order % pieces)[pose]
     return RowSplit(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
+
+
+def _seen_elsewhere(pose: Indices, run: Indices) -> NDArray[np.bool_]:
+    """(N,) rows whose pose another run visits, too."""
+    runs = int(run.max()) + 1
+    visited = np.unique(pose * runs + run) // runs
+    return np.asarray((np.bincount(visited) > 1)[pose])
 
 
 def cross_validate(

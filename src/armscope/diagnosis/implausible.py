@@ -1,15 +1,22 @@
-"""Names whose fitted values no arm can have: what pushes against its load, and what something else takes back."""
+"""Names whose fitted values no arm can have: what pushes against its load, and what something else takes back.
+
+What is merely larger than arms show gives way to a name that explains the rows as well.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.fitting.refit import Refit
+from armscope.inference.constants import PRIORS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import projected_rms
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
 from armscope.physics.effect import Part
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 
@@ -31,6 +38,37 @@ def implausible_effects(problem: Problem, space: EffectSpace, hypothesis: Hypoth
         for chosen, part in zip(hypothesis.chosen, fit.model.parts, strict=True)
         if _against_its_load(space, chosen, part, fit) or _taken_back(problem, chosen.candidate, part)
     ]
+
+
+def more_plausible(
+    problem: Problem, hypothesis: Hypothesis, fit: Refit, refit: Callable[[Hypothesis], Refit]
+) -> tuple[Hypothesis, Refit]:
+    """Another name in the place of one whose values are larger than arms show, where it explains the rows as well.
+
+    Args:
+        problem: the sums that the names were chosen on.
+        hypothesis: with the names.
+        fit: its exact fit.
+        refit: makes the exact fit of a hypothesis.
+
+    Returns:
+        A hypothesis and its fit: those given, if there is none that is better in this.
+    """
+    for chosen, part in zip(hypothesis.chosen, fit.model.parts, strict=True):
+        if not part.implausible or chosen.nested:
+            continue
+        search = Search.on(problem)
+        rest = search.without(hypothesis, [chosen.candidate])
+        for other in search.additions(rest, search.branches, [chosen.candidate]):
+            if other.log_posterior > hypothesis.log_posterior - PRIORS.sure_nats:
+                fitted = refit(other)
+                if _implausible_names(fitted) < _implausible_names(fit):
+                    return other, fitted
+    return hypothesis, fit
+
+
+def _implausible_names(fit: Refit) -> int:
+    return sum(bool(part.implausible) for part in fit.model.parts)
 
 
 def _against_its_load(space: EffectSpace, chosen: SelectedEffect, part: Part, fit: Refit) -> bool:

@@ -11,7 +11,7 @@ from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
-from armscope.diagnosis.implausible import implausible_effects
+from armscope.diagnosis.implausible import implausible_effects, more_plausible
 from armscope.diagnosis.kept_effects import kept_effects
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.naming import named
@@ -70,8 +70,7 @@ class SelectionLoop:
     ) -> None:
         self.table = linearised(rows).in_order(np.argsort(block_of_row, kind="stable"))
         self.recordings = recordings = self.table.recordings
-        self.frames, self.progress = frames, progress
-        self.block_of_row = block_of_row
+        self.frames, self.progress, self.block_of_row = frames, progress, block_of_row
         self.candidates: list[Placed] = []
         self.families: list[list[Placed]] = []
         self.model = start
@@ -215,6 +214,7 @@ class SelectionLoop:
         while none_has := implausible_effects(self.problem, self.space, self.best, self.fit):
             self.best = Search.on(self.problem).without(self.best, none_has)
             self.fit = self._fitted(self.best, of_all)
+        self.best, self.fit = more_plausible(self.problem, self.best, self.fit, lambda h: self._fitted(h, of_all))
 
     def _fitted(self, best: Hypothesis, of_all: bool = False) -> Refit:
         """A hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""

@@ -51,8 +51,8 @@ def _from_repeats(recordings: Recordings) -> float | None:
 
 
 def poses(recordings: Recordings) -> Indices:
-    """(N,) number of the pose at which each row was taken, within its run and for its target."""
-    return same_configuration(recordings.motor_angles, recordings.run, recordings.target)
+    """(N,) number of the pose at which each row was taken: what is wrong with it every target and run sees again."""
+    return same_configuration(recordings.motor_angles)
 
 
 def independence_weights(residuals: Array, pose: Indices, trusted: NDArray[np.bool_]) -> Array:
