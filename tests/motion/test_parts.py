@@ -153,8 +153,16 @@ def test_waves_that_the_library_will_try_are_those_in_the_torque() -> None:
 
 
 def test_the_motion_ends_where_positions_show_it_or_torques_do() -> None:
-    positions, torques = (preparation(200.0, cutoff, "test", 9.0) for cutoff in (10.0, 3.0))
-    assert (positions.motion_hz, torques.motion_hz) == (4.5, 3.0)
+    positions, close, torques = (preparation(200.0, cutoff, "test", 9.0) for cutoff in (8.0, 10.0, 3.0))
+    assert (positions.motion_hz, close.motion_hz, torques.motion_hz) == (4.5, 9.0 / 1.4, 3.0)
+
+
+def test_positions_are_low_passed_close_to_the_motion_where_torques_are_low_passed_above_it() -> None:
+    train = list(stretches(moved(robot(), 3)))
+    above, below = (chosen_cutoff(robot(), train, cutoff)[0] for cutoff in (30.0, 3.0))
+    assert above.position_cutoff < above.cutoff
+    assert below.position_cutoff == pytest.approx(above.position_cutoff * 2 / 1.4)
+    assert (above.motion_hz, below.motion_hz) == (pytest.approx(above.position_cutoff / 1.4), 3.0)
 
 
 def test_positions_are_smoothed_where_their_own_noise_begins() -> None:

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.laws import Law, taken_along
+from armscope.motion.library.laws import Law
 from armscope.motion.samples.preparation import Signals, without_lag
 from armscope.robot.bodies import Bodies
 from tests.motion.moving import path, robot
@@ -56,16 +56,6 @@ def test_a_spring_and_a_warm_gear_own_their_constants() -> None:
     np.testing.assert_allclose(spring, np.column_stack([Q[:, 0] - 0.3, np.ones(50)]))
     warm = Law("warm speed", (0,), (25.0, 1.0))(MOMENT)[:, 0]
     np.testing.assert_allclose(warm[:, 1], DQ[:, 0])
-
-
-def test_what_clings_over_a_way_is_prandtls_stop() -> None:
-    values = np.cumsum(RNG.normal(size=400)) * 0.1
-    expected, state = np.empty((400, 2)), np.full(2, np.sign(values[1] - values[0]))
-    for row in range(400):
-        step = values[row] - values[row - 1] if row else 0.0
-        state = np.clip(state + step / np.array([0.05, 0.3]), -1, 1)
-        expected[row] = state
-    np.testing.assert_allclose(taken_along(values, (0.05, 0.3)), expected, atol=1e-12)
 
 
 def test_a_delay_is_exact_where_it_is_stated() -> None:

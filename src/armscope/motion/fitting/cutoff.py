@@ -31,11 +31,12 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
     Returns:
         The filters and the decimation; what the fit tells besides.
     """
-    how, first = _chosen(arm, stretches, asked)
-    return _resolved(how, sum(map(len, stretches)), asked), first
+    highest = _highest_hz(stretches)
+    how, first = _chosen(arm, stretches, asked, highest)
+    return _resolved(how, sum(map(len, stretches)), asked, highest), first
 
 
-def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparation:
+def _resolved(how: Preparation, samples: int, asked: float | None, highest: float) -> Preparation:
     """With as many rows as may be kept, and a cut-off that they resolve.
 
     Rows farther apart than the filter asks for leave out what lies between them, and slopes over them mean nothing; a
@@ -44,32 +45,33 @@ def _resolved(how: Preparation, samples: int, asked: float | None) -> Preparatio
     kept = thinned(how, samples)
     if asked is not None or kept.every == how.every:
         return kept
-    least = max(CUTOFF.least_hz, how.position_cutoff / CUTOFF.beyond_motion)
+    least = max(CUTOFF.least_hz, highest)
     lower, source = how, "what as many rows as are kept resolve"
     for every in range(kept.every, 3 * kept.every):  # steps of the model's own stride are skipped
         cutoff = float(f"{max(how.rate / (FILTER.rows_per_cutoff * every), least):.3g}")
-        lower = preparation(how.rate, min(cutoff, how.cutoff), source, how.position_cutoff)
+        lower = _prepared(how.rate, min(cutoff, how.cutoff), source, highest)
         if cutoff <= least or lower.every * FILTER.most_rows >= samples:
             break
     return thinned(lower, samples) if lower.cutoff < how.cutoff else kept
 
 
-def _chosen(arm: MovingArm, stretches: Sequence[Stretch], asked: float | None) -> tuple[Preparation, FirstLook]:
+def _chosen(
+    arm: MovingArm, stretches: Sequence[Stretch], asked: float | None, highest: float
+) -> tuple[Preparation, FirstLook]:
     rate = stretches[0].rate
     low, high = (np.array([bound(each.q, axis=0) for each in stretches]) for bound in (np.min, np.max))
     spans = np.maximum(np.max(high, axis=0) - np.min(low, axis=0), LIBRARY.still_rad)
-    moving = _position_cutoff(stretches)
-    generous = preparation(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", moving)
+    generous = _prepared(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", highest)
     first = first_look(arm, max(stretches, key=lambda stretch: _travelled(stretch, spans)), generous)
     if asked is not None:
-        return preparation(rate, asked, "as asked", moving), first
+        return _prepared(rate, asked, "as asked", highest), first
     if len(first.left) < CUTOFF.window:
         source = "a share of the sampling rate: the motion is short"
-        return preparation(rate, CUTOFF.fallback * rate, source, moving), first
+        return _prepared(rate, CUTOFF.fallback * rate, source, highest), first
     crossing = _crossing(first, rate / generous.every)
     cutoff = float(np.clip(crossing, CUTOFF.least_hz, generous.cutoff))
     source = "where the model explains as much as it leaves"
-    return preparation(rate, float(f"{cutoff:.2g}"), source, moving), first
+    return _prepared(rate, float(f"{cutoff:.2g}"), source, highest), first
 
 
 def _travelled(stretch: Stretch, spans: Array) -> tuple[int, float]:
@@ -78,7 +80,20 @@ def _travelled(stretch: Stretch, spans: Array) -> tuple[int, float]:
     return int(moving), float(np.sum(np.abs(np.diff(stretch.q, axis=0)) / spans))
 
 
-def _position_cutoff(stretches: Sequence[Stretch]) -> float:
+def _prepared(rate: float, cutoff: float, source: str, highest: float) -> Preparation:
+    """How samples become rows whose positions show motion up to ``highest``, Hz.
+
+    Noise that positions hold between that frequency and the torques' cut-off is noise of the model's torque, and none
+    of the measured one: laws that bring out what is fast of a torque, of a drive that gives way, of a delay, fit it. So
+    the positions' low-pass is close there. Where the torques' own low-pass takes that noise off, it is far enough away
+    to leave the motion as it is.
+    """
+    cutoff = min(cutoff, FILTER.nyquist * rate / 2)
+    close = CUTOFF.close_to_motion * highest
+    return preparation(rate, cutoff, source, close if close < cutoff else CUTOFF.beyond_motion * highest)
+
+
+def _highest_hz(stretches: Sequence[Stretch]) -> float:
     """Hz above which positions hold noise only: where their spectra come down to that of the highest frequencies.
 
     A run that was sampled more slowly has next to no noise there: it counts by that of the others.
@@ -88,7 +103,7 @@ def _position_cutoff(stretches: Sequence[Stretch]) -> float:
     for frequency, power in spectra:
         moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
         highest = max(highest, float(frequency[moving[-1]]) if len(moving) else 0.0)
-    return CUTOFF.beyond_motion * highest if highest else np.inf
+    return highest or np.inf
 
 
 def _spectrum(stretch: Stretch) -> tuple[Array, Array]:

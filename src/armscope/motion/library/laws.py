@@ -13,6 +13,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
+from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.sides import side
 from armscope.motion.samples.preparation import without_lag
@@ -106,31 +107,8 @@ def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
     return np.column_stack([turned, np.ones_like(turned)])
 
 
-def taken_along(values: Array, ways: tuple[float, ...]) -> Array:
-    """(N, c) how far something that clings over each way is taken along, -1 ... 1: Prandtl's stop operator.
-
-    Sums of it approach any hysteresis that depends on the way since the last turn and not on time (Visintin 1994).
-    """
-    steps = np.diff(values)
-    turning = steps[np.flatnonzero(steps)[:1]]
-    size = int(np.ceil(np.sqrt(len(values))))
-    moved = np.zeros((size * size, len(ways)))
-    moved[1 : len(values)] = steps[:, None] / np.array(ways)
-    blocks = moved.reshape(size, size, -1)
-    # each step cuts off what lies beyond -1 ... 1, and so does any number of them in a row: within all blocks at once,
-    # then from block to block
-    shift, low, high = np.zeros_like(blocks), np.full_like(blocks, -1.0), np.ones_like(blocks)
-    shift[:, 0] = blocks[:, 0]
-    for k in range(1, size):
-        shift[:, k] = shift[:, k - 1] + blocks[:, k]
-        low[:, k] = np.clip(low[:, k - 1] + blocks[:, k], -1, 1)
-        high[:, k] = np.clip(high[:, k - 1] + blocks[:, k], -1, 1)
-    entered = np.empty((size, 1, len(ways)))
-    state = np.full(len(ways), np.sign(turning[0]) if len(turning) else 0.0)
-    for k in range(size):
-        entered[k] = state
-        state = np.clip(state + shift[k, -1], low[k, -1], high[k, -1])
-    return np.clip(entered + shift, low, high).reshape(size * size, -1)[: len(values)]
+def _clinging_over_torques(m: Moment, joints: tuple[int, ...], cutoff: float, *widths: float) -> Array:
+    return taken_along(smooth_torque(m, joints[0], cutoff), widths)
 
 
 def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
@@ -191,7 +169,8 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return _side(m, joints, width)[:, None] * _wave(m, joints, 1)
 
 
-FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", "clinging over torques"})
+CLINGING = ("clinging over torques", "clinging over smooth torques")
+FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
@@ -281,6 +260,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
     "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),
+    "clinging over smooth torques": _clinging_over_torques,
     "behind a drive": _behind,
     "spring": _spring,
     "wave": _wave,

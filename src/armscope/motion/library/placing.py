@@ -195,7 +195,8 @@ def _outside(at: _Joint) -> Iterator[PlacedCause]:
     usual = float(at.seen.effort[at.number])
     widths = np.array(LIBRARY.plays) * usual
     names = tuple((f"over torque {k + 1}", at.torque) for k in range(len(widths)))
-    yield at.cause(catalogue.CURVE, catalogue.PLAY, names, "clinging over torques", *widths, variant="play")
+    law = ("clinging over smooth torques", at.seen.motion_hz, *widths)
+    yield at.cause(catalogue.CURVE, catalogue.PLAY, names, *law, variant="play")
     names = (("linear", ""), ("square", ""), ("cube", ""))
     yield at.cause(catalogue.CURVE, catalogue.SCALE, names, "powers of torque", usual, variant="scale")
 

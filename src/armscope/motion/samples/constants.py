@@ -217,6 +217,12 @@ class CutoffRules(Constants):
         "times the highest frequency of motion at which positions are low-passed",
         "derived: the filter then takes 0.4 % of that frequency",
     )
+    close_to_motion: float = constant(
+        1.4,
+        "times that frequency, where torques are low-passed at a higher one",
+        "derived: where the spectrum of positions falls with the 6th to 12th power of the frequency, what the filter "
+        "takes of an acceleration and the noise that it lets through are least together at 1.2 to 1.5",
+    )
     drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
     bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
     fallback: float = constant(

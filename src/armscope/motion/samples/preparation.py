@@ -84,7 +84,8 @@ class Preparation:
     @property
     def motion_hz(self) -> float:
         """Hz above which the samples show nothing of the motion for noise."""
-        return min(self.cutoff, self.position_cutoff / CUTOFF.beyond_motion)
+        beyond = CUTOFF.close_to_motion if self.position_cutoff < self.cutoff else CUTOFF.beyond_motion
+        return min(self.cutoff, self.position_cutoff / beyond)
 
     @property
     def words(self) -> str:
@@ -225,10 +226,9 @@ class Signals:
     @property
     def of_links(self) -> tuple[Array, Array, Array]:
         """(N, m) positions of the links and their derivatives: the motors' where no link is recorded."""
-        motors = self.q, self.dq, self.ddq
         if self.shift is None:
-            return motors
-        q, dq, ddq = (motor + more for motor, more in zip(motors, self.shift, strict=True))
+            return self.q, self.dq, self.ddq
+        q, dq, ddq = (motor + more for motor, more in zip((self.q, self.dq, self.ddq), self.shift, strict=True))
         return q, dq, ddq
 
     @property
