@@ -103,6 +103,11 @@ class PriorRules(Constants):
         "of a link's mass, mass x length, mass x length^2, by which its inertial parameters may be off unnamed",
         "judgement: from a drawing's accuracy to rough guesses; the evidence chooses",
     )
+    link_masses: tuple[float, ...] = constant(
+        (0.0, 0.01, 0.03, 0.1, 0.3),
+        "of a link's mass by which it may be off unnamed, its moments and inertia in proportion",
+        "judgement: from scales to guesses of a density; the evidence chooses",
+    )
     lightest_share: float = constant(
         0.1, "of the mean mass, that a link counts as at least", "judgement: links of a few grams in a file are stubs"
     )
@@ -223,22 +228,6 @@ class ConsistencyRules(Constants):
 
 
 @dataclass(frozen=True)
-class IntervalRules(Constants):
-    """How wide intervals are."""
-
-    agreeing: float = constant(
-        2.0,
-        "paths by which agreement is believed before any is seen",
-        "judgement: what two paths differ by is hardly known",
-        unit="paths",
-    )
-    reach_nats: float = constant(
-        7.0, "below the best, down to which models share in intervals", "derived: a thousandth", unit="nats"
-    )
-    held: float = constant(0.95, "of what is believed that intervals hold", "convention: 95 % intervals")
-
-
-@dataclass(frozen=True)
 class MotionTelling(Constants):
     """How much is told."""
 
@@ -296,4 +285,3 @@ TELLING = MotionTelling()
 CHECK = CheckRules()
 MODEL_FILE = ModelFileRules()
 EXPORT = ExportRules()
-INTERVALS = IntervalRules()

@@ -39,7 +39,7 @@ from armscope.motion.summary.holding_out import (
     waterfall,
 )
 from armscope.motion.summary.identifiable import identifiable, little_excited
-from armscope.motion.summary.intervals import Sureness, covariance_of, level_told, sureness
+from armscope.motion.summary.intervals import Sureness, covariance_of, level_told
 from armscope.motion.summary.judgement import (
     HeldOutErrors,
     answer_of,
@@ -51,6 +51,7 @@ from armscope.motion.summary.judgement import (
 )
 from armscope.motion.summary.lasting import lasting_torques
 from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.torque_atlas import torque_atlas
@@ -156,14 +157,15 @@ def diagnose_motion(
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
-    selected = tenable(select_causes(layout, train, how, runs, weighing, first.model), how.rate)
+    selected = select_causes(layout, train, how, runs, weighing, first.model)
+    selected = tenable(rather_all_links(selected, selected.space.starts[1]), how.rate)
+    selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
     notices += [*told, *little_excited(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = None
     if test:
         apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients))
-    sure = sureness(selected, _carried(motions))
     notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)
     twists = judged_twists(selected, seen, train, how)
@@ -239,7 +241,8 @@ def _judged(
     lasting = (*lasting_torques(selected), *friction_by_run(selected))
     left = unexplained(found, lasting)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
-    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, sizes["masses"], by_masses)
+    off = max(sizes["masses"], sizes["link masses"])
+    errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     answer, mismatch = answer_of(found, left, errors)
     verdict = MotionVerdict(
         answer=answer,
@@ -248,7 +251,7 @@ def _judged(
         effects=tuple(found),
         unexplained=left,
         background=joint_backgrounds(selected, sure),
-        masses_share=sizes["masses"],
+        masses_share=off,
         held_out=held_out,
         fitted=steps[-1],
         waterfall=steps,

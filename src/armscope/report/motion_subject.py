@@ -55,7 +55,7 @@ class MotionSubject:
     @property
     def masses_fitted(self) -> bool:
         """Whether inertial parameters of links are part of what was fitted, beside the causes."""
-        return bool(len(np.intersect1d(self.found.selected.rows.layout.inertial, self.found.selected.best.columns)))
+        return bool(len(np.intersect1d(self.found.selected.rows.layout.masses, self.found.selected.best.columns)))
 
     @cached_property
     def held(self) -> HeldOutRows:

@@ -127,9 +127,18 @@ class MovingArm:
                 model.inertias[joint] = pin.Inertia.FromDynamicParameters(parameters)
         return model
 
-    def gravity_torques(self, q: Array, gravity: Array) -> Array:
-        """(N, m) N m that hold the stated masses at motor positions q (N, m) in gravity (3,), m/s^2."""
-        model = self.model.copy()
+    def gravity_torques(self, q: Array, gravity: Array, inertial: Array | None = None) -> Array:
+        """Torque of each motor that holds the links at rest.
+
+        Args:
+            q: (N, m) motor positions.
+            gravity: (3,) m/s^2.
+            inertial: (10 n,) of each link, `PARAMETERS`; the stated ones where not given.
+
+        Returns:
+            (N, m) N m.
+        """
+        model = self.model.copy() if inertial is None else self.with_masses(inertial)
         model.gravity.linear = gravity
         data, configurations = model.createData(), self.configurations(q)
         held = np.array([pin.computeGeneralizedGravity(model, data, each).copy() for each in configurations])

@@ -17,7 +17,8 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
     """What may take part in the diagnosis of a motion.
 
     Offset, friction and rotor inertia of every joint are always free; inertial parameters are held near the stated ones
-    by a share that competes, gains by their stated uncertainty.
+    by a share that competes, gains by their stated uncertainty. A link may besides be heavier as a whole: its shape is
+    known from a drawing, and its weight is not.
 
     Args:
         layout: of the columns.
@@ -36,10 +37,16 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         reversals,
         ToleranceFamily("response", layout.response, np.array([PRIOR.response / rate**2]), (0.0, 1.0)),
     ]
-    starts: list[tuple[int, ...]] = [(0, 1, 1), (2, 1, 1), (4, 1, 1)]
+    heavier, stated = layout.link_masses
+    families.append(ToleranceFamily("link masses", heavier, stated, PRIOR.link_masses, is_priced=True, takes_one=True))
+    starts: list[tuple[int, ...]] = [
+        (0, 1, 1, 0),
+        (2, 1, 1, PRIOR.link_masses.index(0.1) if len(heavier) else 0),
+        (4, 1, 1, 0),
+    ]
     if layout.with_gains:
-        stated = layout.arm.gain_uncertainty
-        sigma = np.where(np.isnan(stated), PRIOR.gain, stated)
+        unsure = layout.arm.gain_uncertainty
+        sigma = np.where(np.isnan(unsure), PRIOR.gain, unsure)
         families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
     return ModelSpace(

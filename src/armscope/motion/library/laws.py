@@ -226,7 +226,9 @@ def _lean(m: Moment, joints: tuple[int, ...], *leans: float) -> Array:
     if m.gravity is not None:
         return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
     assert m.bodies is not None
-    return np.stack([m.bodies.arm.gravity_torques(m.motion[0], way) for way in np.array(leans).reshape(-1, 3)], axis=2)
+    arm, inertial = m.bodies.arm, m.bodies.inertial  # as fitted: beside masses that are off, a lean is off as they are
+    ways = np.array(leans).reshape(-1, 3)
+    return np.stack([arm.gravity_torques(m.motion[0], way, inertial) for way in ways], axis=2)
 
 
 def _wound_up(m: Moment, joints: tuple[int, ...]) -> Array:

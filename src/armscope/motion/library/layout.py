@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
+from armscope.motion.library.catalogue import LINK_MASS
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.robot.dynamics import MovingArm
@@ -70,6 +71,26 @@ class TorqueLayout:
     def inertial(self) -> Indices:
         """(10 n,) inertial parameters, in shares of `inertial_scale`."""
         return len(self.own) + np.arange(len(self.arm.inertial))
+
+    @functools.cached_property
+    def link_masses(self) -> tuple[Indices, Array]:
+        """(k,) columns of links that may be heavier in proportion, and (k,) kg that each is stated to weigh.
+
+        None by currents of gains that are not stated to be sure: then a factor of each joint's torque is free, and the
+        weights of links would be much the same over again.
+        """
+        unsure = self.with_gains and bool(np.isnan(self.arm.gain_uncertainty).any())
+        heavier = [
+            (int(columns[0]), self.arm.inertial[int(cause.inertial[:, 0].argmax()) // 10 * 10])
+            for cause, columns in zip(self.placed, self.columns, strict=True)
+            if cause.cause is LINK_MASS and cause.inertial is not None and not unsure
+        ]
+        return np.array([column for column, _ in heavier], dtype=np.intp), np.array([kg for _, kg in heavier])
+
+    @property
+    def masses(self) -> Indices:
+        """All columns by which masses may be off without a name."""
+        return np.concatenate([self.inertial, self.link_masses[0]])
 
     @property
     def gains(self) -> Indices:

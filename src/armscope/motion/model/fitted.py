@@ -96,7 +96,7 @@ class MotionModel:
         friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
-        gravity, stated = self._gravity(signals.of_links[0]), regressor @ self.arm.inertial + carried
+        gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
         moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
         moment = followed.with_laws(moment)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
@@ -134,10 +134,10 @@ class MotionModel:
         joints[:, 5] = 0.0
         return joints, turning
 
-    def _gravity(self, q: Array) -> Array | None:
+    def _gravity(self, q: Array, inertial: Array) -> Array | None:
         if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
             return None
-        return np.stack([self.arm.gravity_torques(q, axis) for axis in np.eye(3)], axis=2)
+        return np.stack([self.arm.gravity_torques(q, axis, inertial) for axis in np.eye(3)], axis=2)
 
 
 def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
@@ -168,12 +168,16 @@ def fitted_model(
     arm = layout.arm
     stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
     gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
+    named = {int(column) for number, _ in chosen for column in layout.columns[number]}
+    heavier = [int(column) for column in layout.link_masses[0] if int(column) not in named]
+    made, shares = layout.made_of_masses
+    in_proportion = shares @ np.where(np.isin(made, heavier), coefficients[made], 0.0)
     return MotionModel(
         arm=arm,
         how=how,
         kind="current" if layout.with_gains else "torque",
         joints=stated + coefficients[layout.own].reshape(-1, OWN),
-        inertial=arm.inertial + layout.inertial_scale * coefficients[layout.inertial],
+        inertial=arm.inertial + layout.inertial_scale * (coefficients[layout.inertial] + in_proportion),
         gains=gains,
         causes=tuple(
             FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)

@@ -1,4 +1,4 @@
-"""Numbers that decide what is told with care, or as torque that lasts without a law; see `armscope.core.constants`."""
+"""Numbers that decide how wide intervals are, what is told with care, or as lasting; see `armscope.core.constants`."""
 
 from __future__ import annotations
 
@@ -45,6 +45,22 @@ class NamingRules(Constants):
 
 
 @dataclass(frozen=True)
+class IntervalRules(Constants):
+    """How wide intervals are."""
+
+    agreeing: float = constant(
+        2.0,
+        "paths by which agreement is believed before any is seen",
+        "judgement: what two paths differ by is hardly known",
+        unit="paths",
+    )
+    reach_nats: float = constant(
+        7.0, "below the best, down to which models share in intervals", "derived: a thousandth", unit="nats"
+    )
+    held: float = constant(0.95, "of what is believed that intervals hold", "convention: 95 % intervals")
+
+
+@dataclass(frozen=True)
 class LastingRules(Constants):
     """When torque that lasts and repeats is told although it has no law."""
 
@@ -81,3 +97,4 @@ class LastingRules(Constants):
 PLAUSIBLE = PlausibleRules()
 NAMING = NamingRules()
 LASTING = LastingRules()
+INTERVALS = IntervalRules()

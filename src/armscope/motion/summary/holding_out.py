@@ -203,7 +203,7 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
     own = layout.own.reshape(-1, OWN)[:, 1:CAUSES_OF_OWN]
     causes = [layout.columns[number] for number in order]
     friction = np.setdiff1d(own, np.concatenate([np.empty(0, dtype=np.intp), *causes]))
-    masses = np.concatenate([layout.inertial, layout.gains])
+    masses = np.setdiff1d([*layout.masses, *layout.gains], np.concatenate([np.empty(0, dtype=np.intp), *causes]))
     states = [friction, *(np.concatenate([friction, masses, *causes[: n + 1]]) for n in range(len(causes)))]
     missed: list[list[Array]] = [[] for _ in states]
     torques: list[Array] = []

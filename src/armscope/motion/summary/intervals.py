@@ -11,7 +11,7 @@ itself, would seem to.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import ndtr
@@ -20,14 +20,18 @@ from armscope.core.types import Array
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
-from armscope.motion.constants import INTERVALS, PRIOR, TELLING
+from armscope.motion.constants import PRIOR, TELLING
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.summary.constants import INTERVALS
+from armscope.motion.summary.unnamed_masses import by_own_share
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
 
+OF_MASSES = ("masses", "link masses")
+"""Names of the families by which masses are off without a name."""
 Rivals = Mapping[int, Sequence[Hypothesis]]
 
 
@@ -58,8 +62,9 @@ def sureness(selected: SelectedCauses, carried: Mapping[str, float]) -> Sureness
     """
     search, rivals = Search.on(selected.problem), {}
     for number in selected.best.candidates:
-        rest = search.without(selected.best, [number])
-        rivals[number] = search.additions(rest, TELLING.looked_at, [number])
+        held = search.in_background(selected.best, number)  # its rivals explain what it does without it, there, too
+        alone = search.holding(search.candidate(number).held) if held else search
+        rivals[number] = alone.additions(alone.without(selected.best, [number]), TELLING.looked_at, [number])
     factor = _widened(selected, search, rivals)
     level = level_of_gains(selected.rows.layout)
     if level:
@@ -145,10 +150,11 @@ def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:
     best = selected.best
     factor = np.ones(len(selected.problem.scale))
     own = np.sqrt(disagreeing(best, selected.problem.scale, selected.blocks))
-    among = [best, *_near(selected, search, rivals)]
+    among, of_links = [best, *_near(selected, search, rivals)], _otherwise_off(selected)
     error = own * np.sqrt(best.variances(best.columns))
     for place, column in enumerate(best.columns):
         told = [each for each in among if each is best or _tells(selected, each, int(column))]
+        told += of_links.get(int(column), [])
         at = np.array([each.at(np.array([column]))[0] for each in told])
         mean = np.array([each.mean[n] for each, n in zip(told, at, strict=True)])
         spread = own[place] * np.sqrt([each.variances(np.array([column]))[0] for each in told])
@@ -191,15 +197,36 @@ def disagreeing(best: Hypothesis, scale: Array, blocks: Sequence[NormalEquations
     return np.asarray(1 + (np.maximum(drawn, 1.0) - 1) * of_data)
 
 
+def _otherwise_off(selected: SelectedCauses) -> dict[int, list[Hypothesis]]:
+    """By column of each name of masses: the selection by every share of which its links may be off in other ways.
+
+    Where the centre of one link lies elsewhere is one number among the ten of it, and how far any number of that link
+    may be off is told by the nine others: shares within reach of the evidence count alike.
+    """
+    layout, best = selected.rows.layout, selected.best
+    found: dict[int, list[Hypothesis]] = {}
+    for number in best.candidates:
+        placed = layout.placed[number]
+        if placed.inertial is None or placed.runs:
+            continue
+        within = [
+            replace(each, log_posterior=best.log_posterior)
+            for each in by_own_share(selected, number)
+            if each.log_posterior > best.log_posterior - INTERVALS.reach_nats
+        ]
+        found |= {int(column): within for column in layout.columns[number]}
+    return found
+
+
 def _near(selected: SelectedCauses, search: Search, rivals: Rivals) -> Iterable[Hypothesis]:
     """Hypotheses within reach of the evidence: one cause exchanged or left out, masses held closer or less so."""
     best = selected.best
-    masses = next(n for n, family in enumerate(selected.space.families) if family.name == "masses")
-    sizes = [best.background[masses] + step for step in (-1, 1)]
+    families = selected.space.families
     others = [
-        (*best.background[:masses], size, *best.background[masses + 1 :])
-        for size in sizes
-        if 0 <= size < selected.space.families[masses].sizes
+        (*best.background[:n], best.background[n] + step, *best.background[n + 1 :])
+        for n, family in enumerate(families)
+        for step in (-1, 1)
+        if family.name in OF_MASSES and 0 <= best.background[n] + step < family.sizes
     ]
     found = [each for number in rivals for each in rivals[number]]
     found += [search.evaluated(best.chosen, best, background) for background in others]

@@ -25,8 +25,8 @@ def shares_of(selected: SelectedCauses) -> tuple[list[float], float]:
     ridge = np.full(len(problem.scale), 1e12)
     ridge[best.columns] = best.noise**2 / best.variance
     members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
-    inertial = selected.rows.layout.inertial
-    masses = np.intersect1d(inertial, best.columns)
+    unnamed = np.setdiff1d(selected.rows.layout.masses, np.concatenate([np.empty(0, dtype=np.intp), *members]))
+    masses = np.intersect1d(unnamed, best.columns)
     base = np.setdiff1d(best.columns, np.concatenate([masses, *members]))
     if not len(masses):
         return shares(problem.equations, ridge, base, members).tolist(), 0.0

@@ -8,13 +8,14 @@ of its links' own does, of which evidence chooses the size as it does of the oth
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.inference.evidence import evaluate
-from armscope.inference.model_space import ToleranceFamily
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import BackgroundSizes, ToleranceFamily
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
@@ -40,6 +41,39 @@ def odds_of_name(selected: SelectedCauses, number: int) -> float:
     return named - unnamed
 
 
+def odds_of_weight(selected: SelectedCauses, number: int) -> float:
+    """How much more likely it is that a link is heavier in proportion than that it is off in some other way alone.
+
+    Args:
+        selected: a selection in which links may be heavier without a name.
+        number: of a link's mass, which has no name there.
+
+    Returns:
+        Nats; both sides as in `odds_of_name`.
+    """
+    freed = _with_own_share(selected, _own(selected, number))
+    otherwise = freed.holding(selected.rows.layout.columns[number])
+    heavier, not_so = (_at_best_shares(selected, each, selected.best.chosen) for each in (freed, otherwise))
+    return heavier - not_so
+
+
+def by_own_share(selected: SelectedCauses, number: int) -> list[Hypothesis]:
+    """The selection by every share of which the links of one of its names may be off otherwise than it says.
+
+    Where a link's centre lies elsewhere by 2 % of its reach, the same torque says another mass of it, and a share that
+    suits all links alike hides that.
+
+    Args:
+        selected: a selection.
+        number: of a chosen cause that is made of inertial parameters.
+
+    Returns:
+        Hypotheses with the same names.
+    """
+    best, freed = selected.best, _with_own_share(selected, _own(selected, number))
+    return [evaluate(freed, best.chosen, (*best.background, own), best.noise) for own in range(len(SHARES))]
+
+
 def _own(selected: SelectedCauses, number: int) -> Indices:
     """Inertial parameters of the links that a name speaks of."""
     layout = selected.rows.layout
@@ -59,12 +93,27 @@ def _with_own_share(selected: SelectedCauses, own: Indices) -> Problem:
 
 
 def _at_best_shares(selected: SelectedCauses, freed: Problem, effects: tuple[SelectedEffect, ...]) -> float:
-    """Log posterior of some effects by the shares that suit them."""
-    background, noise = selected.best.background, selected.best.noise
-    masses = next(n for n, family in enumerate(selected.space.families) if family.name == "masses")
-    found = -np.inf
-    for size in range(selected.space.families[masses].sizes):
-        for own in range(len(SHARES)):
-            sizes = (*background[:masses], size, *background[masses + 1 :], own)
-            found = max(found, evaluate(freed, effects, sizes, noise).log_posterior)
-    return float(found)
+    """Log posterior of some effects by the shares that suit them: of all links, of the name's own, of links' weights.
+
+    The last is looked for at the best of the first two, and these once more at it.
+    """
+    names = [family.name for family in selected.space.families]
+    masses, weights = names.index("masses"), names.index("link masses")
+    sizes, found = (*selected.best.background, 0), -np.inf
+    shares = list(itertools.product(range(freed.space.families[masses].sizes), range(len(SHARES))))
+    of_weights = range(freed.space.families[weights].sizes)
+    for _ in range(2):
+        before = found
+        tried = [(*sizes[:masses], size, *sizes[masses + 1 : -1], own) for size, own in shares]
+        found, sizes = max((_posterior(selected, freed, effects, each), each) for each in tried)
+        tried = [(*sizes[:weights], size, *sizes[weights + 1 :]) for size in of_weights]
+        found, sizes = max((_posterior(selected, freed, effects, each), each) for each in tried)
+        if found <= before:
+            break
+    return found
+
+
+def _posterior(
+    selected: SelectedCauses, freed: Problem, effects: tuple[SelectedEffect, ...], sizes: BackgroundSizes
+) -> float:
+    return float(evaluate(freed, effects, sizes, selected.best.noise).log_posterior)

@@ -1,0 +1,92 @@
+"""Links that are heavier or lighter than stated where all of them are: each has its name where motion tells its weight.
+
+Where stated masses are off all over the arm, evidence asks for a share of them that is free without a name: a name for
+one link would take on what the others are off by, with an interval that knows nothing of them. Beside that share a
+link's own number is what is left for that link alone. It has its name where it is worth the price of one against none,
+and where the link is rather heavier as a whole than off in some other way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from armscope.inference.constants import PRIORS
+from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.problem import SelectedEffect
+from armscope.inference.search import Search
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import at_own_gain
+from armscope.motion.library import catalogue
+from armscope.motion.summary.doubts import determined
+from armscope.motion.summary.intervals import Sureness, sureness
+from armscope.motion.summary.judgement import cause_parameters
+from armscope.motion.summary.unnamed_masses import odds_of_weight
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
+
+
+def rather_all_links(selected: SelectedCauses, of_all: BackgroundSizes) -> SelectedCauses:
+    """The selection with all links off a little in the place of names of masses, where that is about as likely.
+
+    A search ends at one of the two as its rounds go. Names beside masses that are all as stated have intervals that
+    know of nothing else, and what one link does in the place of others, a spring beside it puts right.
+
+    Args:
+        selected: what the evidence asks for.
+        of_all: sizes of the backgrounds from which the other is looked for.
+
+    Returns:
+        The selection, or the other.
+    """
+    best, layout = selected.best, selected.rows.layout
+    placed = [layout.placed[number] for number in best.candidates]
+    weights = [family.name for family in selected.space.families].index("link masses")
+    if best.background[weights] or not any(each.inertial is not None and not each.runs for each in placed):
+        return selected
+    other = Search.on(selected.problem).best([of_all])
+    if other.background[weights] and other.log_posterior > best.log_posterior - INDISTINGUISHABLE_NATS:
+        return at_own_gain(replace(selected, best=other))
+    return selected
+
+
+def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
+    """The selection with names for links out of those that are off without one.
+
+    Args:
+        selected: a selection, all of whose names can stand.
+
+    Returns:
+        The same fit but for the width of these numbers' priors.
+    """
+    search, best, layout = Search.on(selected.problem), selected.best, selected.rows.layout
+    named = []
+    for number, (placed, columns) in enumerate(zip(layout.placed, layout.columns, strict=True)):
+        of_link = placed.cause is catalogue.LINK_MASS and number not in best.candidates
+        if not of_link or not search.in_background(best, number):
+            continue
+        worth = search.log_odds(best, number) >= PRIORS.sure_nats
+        if worth and odds_of_weight(selected, number) >= INDISTINGUISHABLE_NATS:
+            size = selected.problem.nearest_size(abs(float(best.means(columns)[0])))
+            named.append(SelectedEffect(number, size, nested=True))
+    return replace(selected, best=search.evaluated((*best.chosen, *named), best)) if named else selected
+
+
+def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[SelectedCauses, Sureness]:
+    """The selection with names for those links out of all whose weight is told, and how far it can be trusted.
+
+    Args:
+        selected: as of `tenable`.
+        carried: stated payload of runs, kg.
+
+    Returns:
+        Both; a link whose number is not determined, by gains that nobody has measured say, has no name.
+    """
+    named = with_links_that_weigh(selected)
+    sure = sureness(named, carried)
+    added = named.best.candidates - selected.best.candidates
+    loose = [n for n in added if not determined(cause_parameters(named, n, sure.factor))]
+    if not loose:
+        return named, sure
+    kept = tuple(effect for effect in named.best.chosen if effect.candidate not in loose)
+    named = replace(named, best=Search.on(named.problem).evaluated(kept, named.best))
+    return named, sureness(named, carried)
