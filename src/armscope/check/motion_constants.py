@@ -65,6 +65,16 @@ class MotionRules(Constants):
         "times less than as stated that another reading must leave",
         "judgement: no chance of a few rows does so much",
     )
+    driving: float = constant(
+        0.5,
+        "of a torque, beyond masses and acceleration, that friction of the wrong sign must explain",
+        "judgement: most of it; where a sensor sees no friction there is nothing of either sign",
+    )
+    of_noise: float = constant(
+        0.05,
+        "of a torque that masses, friction and acceleration explain at most where it is noise",
+        "judgement: of 100 samples of noise five numbers explain about that by chance",
+    )
     clock: tuple[float, float, float] = constant(
         (0.06, 0.5, 0.01),
         "from which, up to which and in which steps torque is looked for at another time than motion",

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from armscope.check.motion_channels import odd_channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_links import links_beside_motors
@@ -60,8 +61,8 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     if arm is not None:
         runs = {run: _coarse(even, run) for run in even.runs}
         samples = _samples([few for _, few in runs.values()])
-        if motions.kind == "torque":
-            found += _torques(even, samples, arm)
+        of_size = _torques(even, samples, arm) if motions.kind == "torque" else iter(())
+        found += odd_channels(even, samples, arm, of_size)
         found += read_otherwise(samples, arm)
         found += other_clock(even, runs, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))
