@@ -104,6 +104,11 @@ def complaint(file, **options):
         pytest.param(table(*ROWS).replace(",", "   "), ["line 1", "by commas", "armscope init"], id="blanks"),
         pytest.param(table(*ROWS, header=HEADER.replace(",", "','").join("''")), ["Remove the quotes"], id="quotes"),
         pytest.param(table(*ROWS).replace("_rad", " [rad]"), ["'q1 [rad]'", "call it q1_rad"], id="units in brackets"),
+        pytest.param(
+            table("1,0.1,0.2,0.3,0.4,0.5", header="id,x1,y1,z1,arm_1_joint,arm_2_joint"),
+            ["If 'arm_1_joint' is motor 1's angle"],
+            id="a point's column is no angle",
+        ),
         pytest.param(table(*ROWS).replace("q1_rad", "J1").replace("q2_rad", "J2"), ["'J1'", "call it q1_rad"], id="J1"),
         pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
         pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),

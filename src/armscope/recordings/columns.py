@@ -239,7 +239,7 @@ class Names:
             how = f"`armscope init {Path(self.source).name} -o mapping.yaml` drafts how to read it"
             return f"Its joints go by names, such as {by_name[0].strip()!r}: {how}."
         numbered = [name for name in self.columns if re.fullmatch(r"\s*[A-Za-z]\w*?_?1(?!\d).*", name)]
-        like_q1 = [name for name in numbered if not re.match(r"\s*(tau|current|d+q|f|approach)_?1", name.lower())]
+        like_q1 = [name for name in numbered if not re.match(r"\s*(tau|current|d+q|f|approach|[xyz])_?1", name.lower())]
         if not like_q1:
             return nearest("q1_rad", self.columns)
         return (
