@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.core.grouping import by_label, random_parts, same_configuration
+from armscope.core.grouping import by_label, random_parts, same_configuration, visited_by_others
 from armscope.core.sampling import spread_evenly
 
 
@@ -50,3 +50,9 @@ def test_rows_spread_evenly_are_few_enough_and_hold_both_ends(count: int, most: 
     assert rows[0] == 0
     assert rows[-1] == count - 1 or most == 1
     assert np.ptp(np.diff(rows)) <= 1 if len(rows) > 1 else True
+
+
+def test_poses_that_another_run_visits_are_known_whatever_the_order() -> None:
+    pose, run = np.array([0, 1, 0, 2, 0, 1]), np.array([0, 0, 1, 1, 0, 0])
+    assert visited_by_others(pose, run).tolist() == [True, False, True, False, True, False]
+    assert visited_by_others(pose[:0], run[:0]).tolist() == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.calibration.model import SetUp
-from armscope.core.grouping import named_configuration
+from armscope.core.grouping import by_label, named_configuration, same_configuration, visited_by_others
 from armscope.core.types import Indices
 from armscope.recordings import Recordings
 
@@ -15,9 +15,14 @@ TRAIN_SHARE = 0.7
 def random_split(recordings: Recordings, seed: int) -> tuple[Indices, Indices]:
     """Rows to train on and rows to test on: `default_rng(seed).permutation` of the configurations, 70 % to train on.
 
-    A configuration is an id within its run; all its targets stay together.
+    A configuration is an id within its run; all its targets stay together. Where several runs stood at one pose, it is
+    that pose: else rows to train on would hold what is wrong with those to test on.
     """
     configuration = named_configuration(recordings.run, recordings.id)
+    pose = same_configuration(recordings.motor_angles)
+    shared = visited_by_others(pose, by_label(recordings.run)[1])
+    if shared.any():
+        configuration = by_label(np.where(shared, -1 - pose, configuration).astype(str))[1]
     count = int(configuration.max(initial=-1)) + 1
     train = np.random.default_rng(seed).permutation(count)[: int(TRAIN_SHARE * count)]
     in_train = np.isin(configuration, train)

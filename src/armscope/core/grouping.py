@@ -33,6 +33,13 @@ def same_configuration(angles: Array, *beside: NDArray[np.generic]) -> Indices:
     return number
 
 
+def visited_by_others(pose: Indices, run: Indices) -> NDArray[np.bool_]:
+    """(N,) rows at whose pose (N,) another run (N,) stood, too."""
+    runs = int(run.max(initial=-1)) + 1
+    visited = np.unique(pose * runs + run) // max(runs, 1)
+    return np.asarray((np.bincount(visited) > 1)[pose])
+
+
 def by_label(labels: NDArray[np.str_]) -> tuple[tuple[str, ...], Indices]:
     """Names in the order of their first row, and each row's number (N,) among them."""
     names, first, number = np.unique(labels, return_index=True, return_inverse=True)

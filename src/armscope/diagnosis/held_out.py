@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from armscope.core.grouping import same_configuration
+from armscope.core.grouping import same_configuration, visited_by_others
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING
@@ -52,7 +51,7 @@ def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
         len(runs) >= FOLDING.fewest_runs
         and per_run.min() >= FOLDING.fewest_rows_per_run
         and len(runs) <= FOLDING.blocks
-        and np.mean(_seen_elsewhere(pose, which_run)) < FOLDING.seen_elsewhere
+        and np.mean(visited_by_others(pose, which_run)) < FOLDING.seen_elsewhere
     )
     count = int(pose.max()) + 1
     order = rng.permutation(count)
@@ -62,13 +61,6 @@ def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
     pieces = max(1, FOLDING.blocks // len(runs))
     of_row = which_run * pieces + (order % pieces)[pose]
     return RowSplit(of_row, np.repeat(np.arange(len(runs)), pieces), "run")
-
-
-def _seen_elsewhere(pose: Indices, run: Indices) -> NDArray[np.bool_]:
-    """(N,) rows whose pose another run visits, too."""
-    runs = int(run.max()) + 1
-    visited = np.unique(pose * runs + run) // runs
-    return np.asarray((np.bincount(visited) > 1)[pose])
 
 
 def cross_validate(
