@@ -254,3 +254,27 @@ def test_a_column_that_counts_rows_is_no_run(tmp_path):
 def test_a_name_that_is_not_used_ends_no_comment(tmp_path):
     file = written(tmp_path, {"a\u2028rows: []": ANGLES[:, 0]} | names("q{}_rad", ANGLES) | axes("{}_mm", POINTS))
     assert "# not used: 'a?rows: []'" in draft_mapping(file)
+
+
+def test_several_points_of_a_row_are_reflectors_with_rows_of_their_own(tmp_path):
+    """As a tracker with three reflectors, or motion capture, writes them; what has an orientation has one point."""
+    other = POINTS + [0.0, 80.0, 0.0]
+    seen = np.where(np.arange(30)[:, None] == 4, np.nan, other)  # the second one was hidden once
+    turned = {f"q{part}": np.full(30, float(part == "w")) for part in "wxyz"}
+    columns = names("q{}_rad", ANGLES) | axes("{}1", POINTS) | axes("{}2", seen) | turned
+    file = written(tmp_path, columns)
+    (tmp_path / "mapping.yaml").write_text(draft_mapping(file))
+    import_recordings([file], tmp_path / "mapping.yaml", tmp_path / "recordings.csv")
+    table = read_recordings(tmp_path / "recordings.csv")
+    assert len(table) == 59
+    for name, points, rows in (("p1", POINTS, np.arange(30)), ("p2", other, np.delete(np.arange(30), 4))):
+        own = table.rows(table.target == name)
+        assert own.id.tolist() == (rows + 1).astype(str).tolist()
+        np.testing.assert_allclose(1e3 * own.positions, points[rows], atol=1e-6)
+        np.testing.assert_allclose(own.motor_angles, ANGLES[rows], atol=1e-9)
+
+
+def test_a_commanded_and_a_measured_point_are_no_two_reflectors(tmp_path):
+    columns = names("q{}_rad", ANGLES) | axes("{}_cmd", POINTS + 1) | axes("{}_meas", POINTS)
+    content = yaml.safe_load(draft_mapping(written(tmp_path, columns)))
+    assert content["columns"]["position"]["columns"] == ["x_meas", "y_meas", "z_meas"]

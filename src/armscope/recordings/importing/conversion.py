@@ -7,7 +7,6 @@ from typing import cast
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.recordings.columns import (
@@ -18,8 +17,9 @@ from armscope.recordings.columns import (
     QUATERNION,
     UNITS,
 )
+from armscope.recordings.importing.checked_values import check_lengths, refuse, required, scalar, whole
 from armscope.recordings.importing.formats import Column, Time
-from armscope.recordings.importing.mapping import Columns, Label, Orientation, Scalar
+from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 
@@ -89,9 +89,10 @@ class Converter:
             targets = cast(list[str], table.get("target", [""] * len(piece)))
             self._check_ids(piece, list(zip(cast(list[str], table["id"]), targets, runs, strict=True)))
         table |= as_columns([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
-        table |= self._measured(piece)
         table |= self._context(piece, runs)
-        return pd.DataFrame(table)
+        if columns.reflectors is not None:
+            return by_reflector(piece, columns.reflectors, pd.DataFrame(table))
+        return pd.DataFrame(table | self._measured(piece))
 
     def _runs(self, piece: Piece) -> list[str]:
         if self.columns.run is None:
@@ -143,19 +144,14 @@ class Converter:
             orientation: Array | None = self._rotation(
                 piece, columns.pose.matrix, lambda: from_matrices(matrix[:, :3, :3])
             )
-            self._check_lengths(piece, tuple(columns.pose.matrix[k] for k in (3, 7, 11)), position, columns.pose.unit)
+            check_lengths(piece, tuple(columns.pose.matrix[k] for k in (3, 7, 11)), position, columns.pose.unit)
         else:
             assert columns.position is not None
             position = required(piece, columns.position.columns) * UNITS[columns.position.unit]
-            self._check_lengths(piece, columns.position.columns, position, columns.position.unit)
+            check_lengths(piece, columns.position.columns, position, columns.position.unit)
             orientation = None if columns.orientation is None else self._orientation(piece, columns.orientation)
         measured = as_columns(AXES_MM, position * 1e3)
         return measured if orientation is None else measured | as_columns(QUATERNION, orientation)
-
-    def _check_lengths(self, piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
-        rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
-        cure = f"Is its unit really {unit}?"
-        _refuse(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
 
     def _check_last_row(self, piece: Piece, matrix: Array) -> None:
         assert self.columns.pose is not None
@@ -171,18 +167,18 @@ class Converter:
         if group.quaternion is not None:
             assert group.order is not None
             order = group.order
-            values = _whole(piece, group.quaternion)
+            values = whole(piece, group.quaternion, "an orientation")
             return self._rotation(piece, group.quaternion, lambda: from_quaternions(values, order))
         if group.euler is not None:
             assert group.unit is not None
             assert group.sequence is not None
-            angles = _whole(piece, group.euler)
+            angles = whole(piece, group.euler, "an orientation")
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
             far = np.abs(angles * UNITS[group.unit]) > LARGEST_ANGLE_RAD
-            _refuse(piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure)
+            refuse(piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure)
             return from_euler(angles * UNITS[group.unit], group.sequence)
         assert group.matrix is not None
-        matrices = _whole(piece, group.matrix).reshape(-1, 3, 3)
+        matrices = whole(piece, group.matrix, "an orientation").reshape(-1, 3, 3)
         return self._rotation(piece, group.matrix, lambda: from_matrices(matrices))
 
     def _rotation(self, piece: Piece, columns: tuple[Column, ...], convert: object) -> Array:
@@ -205,7 +201,7 @@ class Converter:
         if columns.approach is not None:
             sides = piece.stack(columns.approach.columns)
             wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
-            _refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
+            refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
             context |= as_columns([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
         if columns.payload is not None:
             context["payload_kg"] = scalar(piece, columns.payload, 0.0, "a payload is not negative")
@@ -217,70 +213,43 @@ class Converter:
         if columns.sigma is not None:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
             rule = "an uncertainty is not negative"
-            _refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
+            refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
             context |= as_columns([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
+
+
+def by_reflector(piece: Piece, reflectors: Reflectors, table: pd.DataFrame) -> pd.DataFrame:
+    """A row for each reflector that was seen, those of one raw row together.
+
+    Args:
+        piece: N raw rows.
+        reflectors: where their points stand.
+        table: (N,) what else is known of the rows.
+
+    Returns:
+        The rows with their points, mm, and the reflectors' names.
+
+    Raises:
+        InputError: a point is there in part, or too far to be one, or a row shows no reflector.
+    """
+    seen = []
+    for name, columns in reflectors.targets.items():
+        points = whole(piece, columns, "a point") * UNITS[reflectors.unit]
+        check_lengths(piece, columns, points, reflectors.unit)
+        rows = np.flatnonzero(np.isfinite(points[:, 0]))
+        seen.append(table.iloc[rows].assign(target=name, **as_columns(AXES_MM, points[rows] * 1e3)))
+    rows_of_all = pd.concat(seen).sort_index(kind="stable")
+    unseen = np.setdiff1d(np.arange(len(piece)), rows_of_all.index)
+    if len(unseen):
+        columns = next(iter(reflectors.targets.values()))
+        cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[0]}]}}]`."
+        raise piece.error(int(unseen[0]), columns, "nothing", "a row shows at least one reflector", cure)
+    return rows_of_all.reset_index(drop=True)
 
 
 def as_columns(names: list[str], values: Array) -> dict[str, Array]:
     """Columns of a table by their names."""
     return {name: values[:, column] for column, name in enumerate(names)}
-
-
-def required(piece: Piece, columns: tuple[Column, ...]) -> Array:
-    """(N, columns) numbers that every row must have.
-
-    Raises:
-        InputError: a row has none.
-    """
-    values = piece.stack(columns)
-    missing = np.argwhere(np.isnan(values))
-    if len(missing):
-        row, column = missing[0]
-        cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
-        raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
-    return values
-
-
-def _refuse(
-    piece: Piece, columns: tuple[Column, ...], values: Array, wrong: NDArray[np.bool_], rule: str, cure: str = ""
-) -> None:
-    """Name the first of ``values`` (N, columns) that is ``wrong``."""
-    if wrong.any():
-        row, column = np.argwhere(wrong)[0]
-        raise piece.error(int(row), (columns[column],), f"{values[row, column]:g}", rule, cure)
-
-
-def _whole(piece: Piece, columns: tuple[Column, ...]) -> Array:
-    """(N, columns) the parts of an orientation: all there, or none."""
-    values = piece.stack(columns)
-    missing = np.isnan(values)
-    partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
-    if len(partly):
-        which = tuple(columns[k] for k in np.flatnonzero(missing[partly[0]]))
-        raise piece.error(int(partly[0]), which, "nothing", "an orientation is there as a whole or not at all")
-    return values
-
-
-def scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
-    """A quantity that is a column, or the same in every row.
-
-    Args:
-        piece: N rows.
-        group: where it comes from.
-        low: least value that is allowed.
-        rule: why, for the error.
-
-    Returns:
-        (N,) numbers, NaN for none.
-
-    Raises:
-        InputError: a value below ``low``.
-    """
-    constant = group.constant
-    values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
-    _refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
-    return values
 
 
 def _label(piece: Piece, group: Label) -> list[str]:

@@ -12,6 +12,7 @@ import yaml
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import QUATERNION
+from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
 from armscope.recordings.importing.first_table import ForeignTable, first_table
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
@@ -45,9 +46,7 @@ UR_JOINTS = (
     ("base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"),
 )
 """The six joints of a Universal Robots arm, from the base on; its logs have them in the order of the alphabet, too."""
-COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
 MOST_CLOSING = 5  # lines of statistics below a table
-MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
 
 
 def draft_mapping(path: Path | str) -> str:
@@ -60,7 +59,8 @@ def draft_mapping(path: Path | str) -> str:
     table = first_table(path)
     columns = list(_guess_columns(path, table))
     angles = _motor_columns(table)
-    needed = [*angles, *_triple(table, taken=angles)]
+    reflectors = points_of(table, taken=angles)
+    needed = [*angles, *(reflectors[0] if len(reflectors) == 1 else [])]
     unused = [name for name in table.names if table.header and not any(_quoted(name) in line for line in columns)]
     needed += _closed_by_words(table, [table.names.index(name) for name in unused])
     lines = [*_format_lines(table), "columns:", *columns, *_row_lines(table, needed)]
@@ -111,7 +111,8 @@ def _row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
 
 def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     angles = _motor_columns(table)
-    points = _triple(table, taken=angles)
+    reflectors = points_of(table, taken=angles)
+    points = [column for point in reflectors for column in point]
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
         if not found:
             seen, line = ", ".join(table.names[:12]), f"line {table.skip + 1}"
@@ -131,8 +132,14 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     stated = stated_unit(table.names[points[0]], _below(table, points[0]), LENGTH_UNITS)
     unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
-    yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}; columns by likeness of names"
-    yield from _further(table, len(angles), {*angles, *points})
+    why += "; columns by likeness of names"
+    if len(reflectors) == 1:
+        yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}"
+    else:
+        targets = ", ".join(f"p{n}: {_listed(table, point)}" for n, point in enumerate(reflectors, 1))
+        why += "; guessed: reflectors of one tool, all seen at each pose. Else say position: {columns: [x, y, z]}"
+        yield f"  reflectors: {{targets: {{{targets}}}, unit: {unit}}}   # {why}"
+    yield from _further(table, len(angles), {*angles, *points}, of_one_point=len(reflectors) == 1)
 
 
 def _below(table: ForeignTable, column: int) -> str:
@@ -240,25 +247,8 @@ def _leading(table: ForeignTable) -> list[int]:
     return list(range(count)) if count >= FEWEST_MOTORS and max(spans[:count]) <= 720 else []
 
 
-def _triple(table: ForeignTable, taken: Sequence[int]) -> list[int]:
-    if not table.header:
-        return list(range(len(taken), len(taken) + 3)) if taken else []
-    found: dict[str, dict[str, int]] = {}
-    for column, name in enumerate(table.names):
-        if column in taken:
-            continue
-        for match in re.finditer(r"(?<![a-z])[p]?([xyz])(?![a-z])", name.lower().replace("_", " ")):
-            rest = (name[: match.start(1)] + "?" + name[match.end(1) :]).lower()
-            found.setdefault(rest, {})[match[1]] = column
-    whole = [(rest, [axes[a] for a in "xyz"]) for rest, axes in found.items() if set(axes) == set("xyz")]
-    whole = [(rest, columns) for rest, columns in whole if not re.search(r"r\?|rot|q\?|quat|force|f\?|sigma", rest)]
-    score = [(any(word in rest for word in MEASURED) - any(word in rest for word in COMMANDED), -columns[0], columns)
-             for rest, columns in whole]  # fmt: skip
-    return max(score)[-1] if score else []
-
-
-def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[str]:
-    """Context by names alone."""
+def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: bool) -> Iterator[str]:
+    """Context by names alone; several reflectors have names already, and no orientation each."""
     if not table.header:
         return
     for group, columns in _per_motor(table, n_motors, taken).items():
@@ -266,7 +256,7 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[st
         say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
         yield f"  {group}: {{columns: {_listed(table, columns)}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
-    if all(part in small for part in QUATERNION):
+    if of_one_point and all(part in small for part in QUATERNION):
         listed = _listed(table, [small[part] for part in QUATERNION])
         yield f"  orientation: {{quaternion: {listed}, order: wxyz}}   # guessed by name"
     singles = {
@@ -280,6 +270,8 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int]) -> Iterator[st
         yield f"  run: {{column: {_quoted(table.names[run])}}}   # guessed by name: of which run each row is"
     for what, (pattern, line) in singles.items():
         match = next((column for name, column in small.items() if re.fullmatch(pattern, name)), None)
+        if what == "target" and not of_one_point:
+            continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
 

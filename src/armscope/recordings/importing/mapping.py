@@ -35,6 +35,13 @@ class Vector(Strict):
     unit: LengthUnit
 
 
+class Reflectors(Strict):
+    """Several points of one tool in each row: the name of every reflector, with its three columns along x, y, z."""
+
+    targets: dict[str, tuple[Column, Column, Column]] = Field(min_length=2)
+    unit: LengthUnit
+
+
 class Orientation(Strict):
     """Measurement frame from tool frame, by one of three ways.
 
@@ -149,6 +156,7 @@ class Columns(Groups):
 
     angles: Angles | None = None
     position: Vector | None = None
+    reflectors: Reflectors | None = None
     orientation: Orientation | None = None
     pose: Pose | None = None
     torque: PerMotor | None = None
@@ -163,10 +171,11 @@ class Columns(Groups):
     id: Identity | None = None
 
     def measured(self) -> list[Column]:
-        """The columns of which none can stand for two quantities: angles, position, orientation, torque and speed."""
+        """The columns of which none can stand for two quantities: angles, points, orientation, torque and speed."""
         ways = [self.angles, self.position, self.torque, self.speed]
         found = [column for way in ways if way is not None for column in way.columns]
         found += self.pose.matrix if self.pose is not None else ()
+        found += [column for point in self.reflectors.targets.values() for column in point] if self.reflectors else ()
         turned = self.orientation
         return [*found, *((turned.quaternion or turned.euler or turned.matrix or ()) if turned is not None else ())]
 
@@ -259,8 +268,10 @@ class Mapping(Strict):
         of_run = f" (run {run.run!r})" if run.run else ""
         if columns.angles is None:
             raise ValueError(f"no column for the motor angles: `angles` is needed{of_run}")
-        if (columns.position is None) == (columns.pose is None):
-            raise ValueError(f"measured points come from `position` or from `pose`, one of the two{of_run}")
+        if sum(way is not None for way in (columns.position, columns.reflectors, columns.pose)) != 1:
+            raise ValueError(f"measured points come from `position`, `reflectors` or `pose`: one of the three{of_run}")
+        if columns.reflectors is not None and (columns.target is not None or columns.orientation is not None):
+            raise ValueError(f"`reflectors` name their targets, and have no `orientation`: leave these out{of_run}")
         if columns.pose is not None and columns.orientation is not None:
             raise ValueError(f"`pose` brings its own orientation: leave out `orientation`{of_run}")
         for group in ("torque", "speed", "approach"):

@@ -12,7 +12,8 @@ import pydantic
 from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
-from armscope.recordings.importing.conversion import Clock, as_columns, required, scalar
+from armscope.recordings.importing.checked_values import required, scalar
+from armscope.recordings.importing.conversion import Clock, as_columns
 from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
 from armscope.recordings.importing.mapping import (
     Groups,

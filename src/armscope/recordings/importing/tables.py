@@ -57,7 +57,9 @@ class ImportReport:
         lines = [f"{self.output}: {sum(run.rows_written for run in self.runs)} rows, {len(named)} run(s)"]
         lines += ["columns: " + ", ".join(self.columns)]
         for run in self.runs:
-            lines.append(f"run {run.run} from {run.file}: {run.rows_written} of {run.rows_read} rows")
+            several = run.rows_written > run.rows_read
+            rows = f"{run.rows_written} {'rows, of' if several else 'of'} {run.rows_read} rows"
+            lines.append(f"run {run.run} from {run.file}: {rows}")
             lines += [f"  left out, {out.rule}: {_shortened(out.rows)}" for out in run.left_out]
             lines += [f"  {text}: {count}" for text, count in run.notes.items()]
         return "\n".join(lines)
@@ -171,7 +173,7 @@ def _table_columns(mapping: Mapping, runs: Sequence[AnyRun]) -> list[str]:
     def any_has(*groups: str) -> bool:
         return any(getattr(columns, group) is not None for columns in stated for group in groups)
 
-    names = ["id", "run"] + ["target"] * any_has("target") + [f"q{j}_rad" for j in motors] + AXES_MM
+    names = ["id", "run"] + ["target"] * any_has("target", "reflectors") + [f"q{j}_rad" for j in motors] + AXES_MM
     names += QUATERNION * any_has("orientation", "pose")
     names += [f"tau{j}_nm" for j in motors] * any_has("torque") + [f"dq{j}_rad_s" for j in motors] * any_has("speed")
     names += [f"approach{j}" for j in motors] * any_has("approach")
@@ -193,8 +195,8 @@ def _convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], repor
         for each in filters:
             piece = each.apply(piece)
         if len(piece):
-            report.rows_written += len(piece)
             table = converter.table(piece)
+            report.rows_written += len(table)
             report.within |= set(table["run"]) if "run" in table else {run.run}
             yield table
     beside.check_all_used(report.rows_read)

@@ -1,0 +1,75 @@
+"""Numbers of a raw file, refused by file, row and column where they can't be what the mapping says."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from armscope.core.types import Array
+from armscope.recordings.columns import LARGEST_POSITION_M, UNITS
+from armscope.recordings.importing.formats import Column
+from armscope.recordings.importing.mapping import Scalar
+from armscope.recordings.importing.pieces import Piece
+
+
+def required(piece: Piece, columns: tuple[Column, ...]) -> Array:
+    """(N, columns) numbers that every row must have.
+
+    Raises:
+        InputError: a row has none.
+    """
+    values = piece.stack(columns)
+    missing = np.argwhere(np.isnan(values))
+    if len(missing):
+        row, column = missing[0]
+        cure = f"Leave such rows out with `rows: [{{drop_missing: [{columns[column]}]}}]`."
+        raise piece.error(int(row), (columns[column],), "nothing", "this value is required in every row", cure)
+    return values
+
+
+def refuse(
+    piece: Piece, columns: tuple[Column, ...], values: Array, wrong: NDArray[np.bool_], rule: str, cure: str = ""
+) -> None:
+    """Raise an InputError that names the first of ``values`` (N, columns) that is ``wrong``."""
+    if wrong.any():
+        row, column = np.argwhere(wrong)[0]
+        raise piece.error(int(row), (columns[column],), f"{values[row, column]:g}", rule, cure)
+
+
+def whole(piece: Piece, columns: tuple[Column, ...], what: str) -> Array:
+    """(N, columns) the parts of something, such as "an orientation": all there, or none."""
+    values = piece.stack(columns)
+    missing = np.isnan(values)
+    partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
+    if len(partly):
+        which = tuple(columns[k] for k in np.flatnonzero(missing[partly[0]]))
+        raise piece.error(int(partly[0]), which, "nothing", f"{what} is there as a whole or not at all")
+    return values
+
+
+def scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
+    """A quantity that is a column, or the same in every row.
+
+    Args:
+        piece: N rows.
+        group: where it comes from.
+        low: least value that is allowed.
+        rule: why, for the error.
+
+    Returns:
+        (N,) numbers, NaN for none.
+
+    Raises:
+        InputError: a value below ``low``.
+    """
+    constant = group.constant
+    values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
+    refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
+    return values
+
+
+def check_lengths(piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
+    """Refuse points (N, 3), m, that no instrument sees."""
+    rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+    cure = f"Is its unit really {unit}?"
+    refuse(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
