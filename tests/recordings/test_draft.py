@@ -258,7 +258,7 @@ def test_a_name_that_is_not_used_ends_no_comment(tmp_path):
 
 def test_several_points_of_a_row_are_reflectors_with_rows_of_their_own(tmp_path):
     """As a tracker with three reflectors, or motion capture, writes them; what has an orientation has one point."""
-    other = POINTS + [0.0, 80.0, 0.0]
+    other = POINTS + np.array([0.0, 80.0, 0.0])
     seen = np.where(np.arange(30)[:, None] == 4, np.nan, other)  # the second one was hidden once
     turned = {f"q{part}": np.full(30, float(part == "w")) for part in "wxyz"}
     columns = names("q{}_rad", ANGLES) | axes("{}1", POINTS) | axes("{}2", seen) | turned

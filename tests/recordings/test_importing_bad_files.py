@@ -282,36 +282,3 @@ def test_a_pickle_is_never_loaded_whatever_it_is_called(tmp_path):
             with pytest.raises(InputError, match="never loaded"):
                 convert_files(tmp_path, [tmp_path / name], mapping)
     assert not (tmp_path / "harm").exists()
-
-
-REFLECTORS = {"targets": {"a": ["x", "y", "z"], "b": ["u", "v", "w"]}, "unit": "mm"}
-
-
-@pytest.mark.parametrize(
-    ("rows", "message"),
-    [
-        ("0,0,1,2,3,4,,6", r"line 2, column v: found nothing.*a point is there as a whole or not at all"),
-        ("0,0,,,,,,", r"line 2, .*a row shows at least one reflector.*drop_missing: \[x\]"),
-        ("0,0,1,2,3,4,5e9,6", r"line 2, column v.*a measured point lies within"),
-    ],
-)
-def test_a_reflector_that_can_not_be_read_is_named(rows, message, tmp_path):
-    mapping = {"columns": {"angles": SIMPLE["columns"]["angles"], "reflectors": REFLECTORS}}
-    with pytest.raises(InputError, match=f"(?s){message}"):
-        convert(tmp_path, f"j1,j2,x,y,z,u,v,w\n{rows}\n", mapping)
-
-
-@pytest.mark.parametrize(
-    ("groups", "message"),
-    [
-        ({"position": SIMPLE["columns"]["position"]}, "one of the three"),
-        ({"target": {"constant": "c"}}, "`reflectors` name their targets"),
-        ({"orientation": {"quaternion": [1, 2, 3, 4], "order": "wxyz"}}, "have no `orientation`"),
-        ({"reflectors": {"targets": {"a": ["x", "y", "z"]}, "unit": "mm"}}, "at least 2"),
-        ({"reflectors": {"targets": {"a": ["x", "y", "z"], "b": ["x", "y", "z"]}, "unit": "mm"}}, "in two places"),
-    ],
-)
-def test_reflectors_stand_by_themselves(groups, message, tmp_path):
-    columns = {"angles": SIMPLE["columns"]["angles"], "reflectors": REFLECTORS} | groups
-    with pytest.raises(InputError, match=message):
-        convert(tmp_path, "j1,j2,x,y,z,u,v,w\n0,0,1,2,3,4,5,6\n", {"columns": columns})

@@ -27,17 +27,41 @@ def required(piece: Piece, columns: tuple[Column, ...]) -> Array:
     return values
 
 
-def refuse(
+def refuse_values(
     piece: Piece, columns: tuple[Column, ...], values: Array, wrong: NDArray[np.bool_], rule: str, cure: str = ""
 ) -> None:
-    """Raise an InputError that names the first of ``values`` (N, columns) that is ``wrong``."""
+    """Let no value pass that can't be.
+
+    Args:
+        piece: N rows of a raw file.
+        columns: where the values stand.
+        values: (N, columns) as they stand there.
+        wrong: (N, columns) those that can't be.
+        rule: what is allowed.
+        cure: how to mend it.
+
+    Raises:
+        InputError: names the first wrong one.
+    """
     if wrong.any():
         row, column = np.argwhere(wrong)[0]
         raise piece.error(int(row), (columns[column],), f"{values[row, column]:g}", rule, cure)
 
 
 def whole(piece: Piece, columns: tuple[Column, ...], what: str) -> Array:
-    """(N, columns) the parts of something, such as "an orientation": all there, or none."""
+    """The parts of something that is there as a whole or not at all.
+
+    Args:
+        piece: N rows of a raw file.
+        columns: where the parts stand.
+        what: "a point", "an orientation".
+
+    Returns:
+        (N, columns), NaN in all columns where there is none.
+
+    Raises:
+        InputError: some parts are there and others are not.
+    """
     values = piece.stack(columns)
     missing = np.isnan(values)
     partly = np.flatnonzero(missing.any(axis=1) & ~missing.all(axis=1))
@@ -64,12 +88,22 @@ def scalar(piece: Piece, group: Scalar, low: float, rule: str) -> Array:
     """
     constant = group.constant
     values = np.full(len(piece), constant, dtype=float) if group.column is None else piece.numbers(group.column)
-    refuse(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
+    refuse_values(piece, (group.column or "constant",), values[:, None], values[:, None] < low, rule)
     return values
 
 
 def check_lengths(piece: Piece, columns: tuple[Column, ...], lengths: Array, unit: str) -> None:
-    """Refuse points (N, 3), m, that no instrument sees."""
+    """Refuse points that no instrument sees.
+
+    Args:
+        piece: N rows of a raw file.
+        columns: where the points stand, along x, y, z.
+        lengths: (N, 3), m.
+        unit: in which they stand there.
+
+    Raises:
+        InputError: a point lies too far from its frame's origin.
+    """
     rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
     cure = f"Is its unit really {unit}?"
-    refuse(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
+    refuse_values(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)

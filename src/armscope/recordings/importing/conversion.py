@@ -17,7 +17,7 @@ from armscope.recordings.columns import (
     QUATERNION,
     UNITS,
 )
-from armscope.recordings.importing.checked_values import check_lengths, refuse, required, scalar, whole
+from armscope.recordings.importing.checked_values import check_lengths, refuse_values, required, scalar, whole
 from armscope.recordings.importing.formats import Column, Time
 from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors
 from armscope.recordings.importing.pieces import Piece
@@ -175,7 +175,9 @@ class Converter:
             angles = whole(piece, group.euler, "an orientation")
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
             far = np.abs(angles * UNITS[group.unit]) > LARGEST_ANGLE_RAD
-            refuse(piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure)
+            refuse_values(
+                piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure
+            )
             return from_euler(angles * UNITS[group.unit], group.sequence)
         assert group.matrix is not None
         matrices = whole(piece, group.matrix, "an orientation").reshape(-1, 3, 3)
@@ -201,7 +203,7 @@ class Converter:
         if columns.approach is not None:
             sides = piece.stack(columns.approach.columns)
             wrong = ~np.isin(sides, [-1, 0, 1]) & ~np.isnan(sides)
-            refuse(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
+            refuse_values(piece, columns.approach.columns, sides, wrong, "the side of approach is -1 or +1")
             context |= as_columns([f"approach{j + 1}" for j in range(sides.shape[1])], sides)
         if columns.payload is not None:
             context["payload_kg"] = scalar(piece, columns.payload, 0.0, "a payload is not negative")
@@ -213,7 +215,7 @@ class Converter:
         if columns.sigma is not None:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
             rule = "an uncertainty is not negative"
-            refuse(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
+            refuse_values(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
             context |= as_columns([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
 
