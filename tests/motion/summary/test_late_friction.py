@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.library.dry_friction import DryFriction
-from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.samples.preparation import Signals
+from armscope.motion.summary.late_friction import told_late
 from armscope.verdict.schema import Notice
 from tests.motion.moving import COULOMB, moved, robot
 
 JOINT, RATE = 2, 200.0
 
 
-def notices(late_s: float) -> list[Notice]:
-    """What is said of an arm whose third joint's dry friction changes sides so late."""
+def diagnosed(late_s: float) -> MotionDiagnosis:
+    """Of an arm whose third joint's dry friction changes sides so late."""
     arm = robot()
 
     def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
@@ -26,8 +29,12 @@ def notices(late_s: float) -> list[Notice]:
         extra[:, JOINT] = COULOMB[JOINT] * (late - now)
         return extra
 
-    verdict = diagnose_motion(arm, moved(arm, 3, clinging), MotionSettings(cutoff=10.0)).verdict
-    return [notice for notice in verdict.notices if notice.kind == "late friction"]
+    return diagnose_motion(arm, moved(arm, 3, clinging), MotionSettings(cutoff=10.0))
+
+
+def notices(late_s: float) -> list[Notice]:
+    """What is said of it."""
+    return [notice for notice in diagnosed(late_s).verdict.notices if notice.kind == "late friction"]
 
 
 def test_friction_that_clings_is_told_where_and_by_how_much() -> None:
@@ -40,3 +47,14 @@ def test_friction_that_clings_is_told_where_and_by_how_much() -> None:
 def test_friction_in_time_with_its_speed_is_not() -> None:
     assert not notices(0.0)
     assert not notices(0.0015)
+
+
+def test_a_joint_that_pauses_changes_no_sides_too_soon() -> None:
+    """Before it moves again its motor builds up what breaks it loose: that is no time of its friction."""
+    found = diagnosed(-0.012)
+    (told,) = told_late(found.selected, found.sure)
+    assert "joint 3 -1" in told.text
+    still = found.selected.rows.still.copy()
+    still[:3, JOINT] = True
+    pausing = replace(found.selected, rows=replace(found.selected.rows, still=still))
+    assert told_late(pausing, found.sure) == []

@@ -137,6 +137,9 @@ DELAY = Cause(
     "Shift the torque back by the delay, or simulate the delay.",
     clause=clauses.delay_clause,
     remedy=remedies.shifted,
+    open_clause=clauses.open_delay_clause,
+    open_cure="Change nothing for it yet. Turn the joint to and fro at two speeds: friction that clings comes back "
+    "over the same angle, a delay after the same time.",
 )
 BALANCER = Cause(
     "gravity_balance",

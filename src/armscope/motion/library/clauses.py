@@ -105,6 +105,15 @@ def delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     return f"the torque of {cause.location} was recorded {amount(delay)} too {side}"
 
 
+def open_delay_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """What a delay is whose sign or size is open: all that it moves is when friction changes sides."""
+    farthest = max(map(abs, numbers["delay"].interval))
+    return (
+        f"where {cause.location} reverses, its friction does not change sides as the model's does, or its torque is "
+        f"recorded up to {rounded(1e3 * farthest)} ms early or late: this motion does not tell which"
+    )
+
+
 def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A torque constant that is off."""
     gain = numbers["gain"]

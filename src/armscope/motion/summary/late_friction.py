@@ -26,7 +26,7 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         sure: how wide intervals are. Gains of all drives that are off alike make no moment later.
 
     Returns:
-        A notice, or none.
+        A notice, or none. Of a joint that stands between its moves none that says "sooner".
     """
     layout, best = selected.rows.layout, selected.best
     named = {layout.placed[n].joints[0] for n in best.candidates if layout.placed[n].cause is catalogue.DELAY}
@@ -39,7 +39,7 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         error = float(np.sqrt(best.variances(np.array([column]))[0])) / selected.problem.scale[column]
         apart = np.sqrt(max((sure.factor[column] * error) ** 2 - (level * slope) ** 2, error**2))
         late, unsure = slope / dry, INTERVAL * apart / dry
-        if abs(late) - unsure > PRIOR.turning_s:
+        if abs(late) - unsure > PRIOR.turning_s and (late > 0 or not _stands(selected, j)):
             told.append(f"joint {j + 1} {rounded(1e3 * late)} ± {rounded(1e3 * unsure)} ms")
     if not told:
         return []
@@ -50,3 +50,8 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         "after the same time."
     )
     return [Notice("late friction", text)]
+
+
+def _stands(selected: SelectedCauses, joint: int) -> bool:
+    """Whether a joint ever stays where it is: then a motor builds up what breaks it loose before it moves again."""
+    return bool(selected.rows.still[:, joint].any() or selected.rows.pauses[joint].held)

@@ -26,10 +26,10 @@ from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import OWN
-from armscope.motion.summary.constants import PLAUSIBLE
+from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.unnamed_masses import odds_of_name
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
 
 def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
@@ -119,13 +119,18 @@ def _between_samples(selected: SelectedCauses, rate: float) -> Iterator[int]:
 def _no_body(selected: SelectedCauses, number: int) -> bool:
     """Whether a load that may sit anywhere has no mass, or its centre farther from the last joint than the arm is long.
 
-    Moments of the last link, moved by errors of the other masses, are no load.
+    Moments of the last link, moved by errors of the other masses, are no load; nor is what is not stated to be carried
+    and has a mass that is not determined: what sits elsewhere there is nothing.
     """
     layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
     if placed.parameters[0][0] != "mass":
         return True
-    mass, *moments = selected.coefficients[layout.columns[number]]
-    return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + carried_in(selected, placed)[1]))
+    columns, (_, stated) = layout.columns[number], carried_in(selected, placed)
+    mass, *moments = selected.coefficients[columns]
+    error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
+    if not stated and NAMING.determined * abs(mass) < INTERVAL * error:
+        return True
+    return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + stated))
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:

@@ -28,7 +28,8 @@ def clause(cause: FoundCause) -> str:
     say = known.clause if known else None
     numbers = {parameter.name: parameter for parameter in cause.parameters}
     if not (cause.nameless or determined(cause.parameters)):
-        return f"{cause.title}, whose size is not determined"
+        unsure = known.open_clause if known else None
+        return unsure(cause, numbers) if unsure else f"{cause.title}, whose size is not determined"
     told = say(cause, numbers) if say else f"{cause.title} ({rms_of(cause)})"
     _, _, run = cause.title.partition(" in run ")
     return f"in run {run} {told}" if run else told
@@ -49,4 +50,5 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
     say, own = placed.cause.remedy, placed.cause.cure
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
     sure = say if determined(parameters) else None
-    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location)) if sure else own
+    unsure = "" if determined(parameters) else placed.cause.open_cure
+    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location)) if sure else unsure or own
