@@ -62,7 +62,13 @@ class LibraryRules(Constants):
     delays_s: tuple[float, ...] = constant(
         (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
     )
-    most_waves: int = constant(60, "per turn that are tried", "judgement: gears' and motors' low harmonics")
+    few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")
+    most_waves: int = constant(400, "per turn that are tried", "derived: two per motor turn behind a gear of 200 to 1")
+    waves_at_once: int = constant(50, "formed at a time", "judgement: memory; 30,000 samples of these are 24 MB")
+    slow_turn: float = constant(25.0, "percentile of speeds that are slow", "judgement: enough to show waves", unit="%")
+    crawling: float = constant(0.05, "of a joint's greatest speed, below it rests", "judgement: it shows no waves")
+    most_of_the_rest: float = constant(0.5, "of what friction and masses leave that fast waves are", "derived: most")
+    wave_left: float = constant(0.05, "of a wave that is left by low-pass and other columns", "judgement: a trace")
     waves_kept: int = constant(3, "of those tried that compete at a joint", "judgement: time", unit="waves")
     ways: tuple[float, ...] = constant(
         (0.003, 0.01, 0.03, 0.1),

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import orth
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import estimated_model
 from armscope.motion.fitting.weights import fitted_together
+from armscope.motion.library.laws import wave
 from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.samples.preparation import Preparation, parts
+from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
@@ -75,6 +77,8 @@ def _waves(
 ) -> tuple[tuple[tuple[int, ...], int], Array]:
     """The counts whose waves explain most, each more than the counts beside it; how many were tried; their torque.
 
+    Of many per turn only one that is most of what is left.
+
     What friction and masses can say of a wave is taken off it, as it was off what is left: by the whole wave, over a
     range of less than a third of a turn another count stood out than the true one.
 
@@ -88,27 +92,68 @@ def _waves(
     Returns:
         Counts, how many, (K,) N m.
     """
-    speed = np.percentile(np.abs(np.diff(stretch.q[:, j])), 90) * stretch.rate / (2 * np.pi)
-    most = min(LIBRARY.most_waves, int(how.cutoff / max(speed, 1e-9)))
-    least = max(2, int(np.ceil(LIBRARY.least_waves * 2 * np.pi / max(float(np.ptp(stretch.q[:, j])), 1e-9))))
-    counts, (moving, ordinary) = np.arange(least, most + 1), beside
+    (slow, fast), (moving, ordinary) = counts_shown(stretch, how, j), beside
+    counts = np.concatenate([slow, fast])
     if not len(counts) or not moving.any():
         return ((), 1), np.zeros(len(left))
-    made = []
-    for signals in parts([stretch], how):
-        turned = signals.q[:, j, None] * counts
-        made.append(how.low_passed(np.stack([np.sin(turned), np.cos(turned)], axis=2), signals.kept, signals.stride))
-    waves = np.concatenate(made)
     basis = orth(ordinary / np.maximum(np.linalg.norm(ordinary, axis=0), 1e-300))
     own = left[moving] - basis @ (basis.T @ left[moving])
     explained = np.zeros(len(counts))
-    for number in range(len(counts)):
-        wave = waves[moving, number]
-        wave = wave - basis @ (basis.T @ wave)
-        explained[number] = (wave.T @ own) @ np.linalg.lstsq(wave, own, rcond=None)[0]
+    turned = list(parts([stretch], how))
+    for some in np.array_split(np.arange(len(counts)), -(-len(counts) // LIBRARY.waves_at_once)):
+        waves = _formed(turned, how, j, counts[some])
+        for number, formed in zip(some, np.swapaxes(waves[moving], 0, 1), strict=True):
+            alone = formed - basis @ (basis.T @ formed)
+            if number < len(slow) or np.sum(alone**2) > LIBRARY.wave_left * len(alone):
+                explained[number] = (alone.T @ own) @ np.linalg.lstsq(alone, own, rcond=None)[0]
+    best = _peaks(explained[: len(slow)])[: LIBRARY.waves_kept]
+    standing_out = len(slow) + np.flatnonzero(explained[len(slow) :] > LIBRARY.most_of_the_rest * float(own @ own))
+    if len(standing_out):
+        best = np.append(best, standing_out[np.argmax(explained[standing_out])])
+    if not len(best):
+        return ((), len(counts)), np.zeros(len(left))
+    best = np.sort(best)
+    kept = _formed(turned, how, j, counts[best]).reshape(len(left), -1)
+    found = tuple(int(n) for n in counts[best]), len(counts) if len(standing_out) else len(slow)
+    return found, kept @ np.linalg.lstsq(kept[moving], left[moving], rcond=None)[0]
+
+
+def _peaks(explained: Array) -> Indices:
+    """Where something explains more than what is beside it, the highest first."""
     around = np.r_[-np.inf, explained, -np.inf]
     peaks = np.flatnonzero((explained >= around[:-2]) & (explained >= around[2:]))
-    best = np.sort(peaks[np.argsort(-explained[peaks])][: LIBRARY.waves_kept])
-    kept = waves[:, best].reshape(len(waves), -1)
-    found = tuple(int(n) for n in counts[best])
-    return (found, len(counts)), kept @ np.linalg.lstsq(kept[moving], left[moving], rcond=None)[0]
+    return np.asarray(peaks[np.argsort(-explained[peaks])])
+
+
+def counts_shown(stretch: Stretch, how: Preparation, j: int) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
+    """Waves per turn that a joint's motion shows: its range holds some, and they pass below the cut-off.
+
+    Few per turn do so at nearly all speeds. Many, of which a gear of 100 to 1 whose wave generator has two lobes makes
+    200 per turn of its joint, do so in the motion's slower parts.
+
+    Args:
+        stretch: even samples.
+        how: filters and decimation.
+        j: joint, from 0.
+
+    Returns:
+        The counts of both kinds, ascending; none where its range holds too little of any.
+    """
+    speed = np.abs(np.diff(stretch.q[:, j])) * stretch.rate / (2 * np.pi)
+    moving = speed[speed > LIBRARY.crawling * speed.max()]
+    if not len(moving):
+        return np.arange(0), np.arange(0)
+    fast, slow = float(np.percentile(speed, 90)), float(np.percentile(moving, LIBRARY.slow_turn))
+    least = max(2, int(np.ceil(LIBRARY.least_waves * 2 * np.pi / max(float(np.ptp(stretch.q[:, j])), 1e-9))))
+    few = min(LIBRARY.few_waves, int(how.cutoff / max(fast, 1e-9)))
+    many = min(LIBRARY.most_waves, int(how.cutoff / max(slow, 1e-9)))
+    return np.arange(least, few + 1), np.arange(max(few + 1, least), many + 1)
+
+
+def _formed(turned: Sequence[Signals], how: Preparation, j: int, counts: NDArray[np.int_]) -> Array:
+    """(K, counts, 2) sine and cosine of a joint's angle times each count, as rows."""
+    made = []
+    for signals in turned:
+        waves = np.stack([wave(signals, j, float(count)) for count in counts], axis=1)
+        made.append(how.low_passed(waves, signals.kept, signals.stride))
+    return np.concatenate(made)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.motion.library.catalogue import RIPPLE
 from armscope.motion.library.causes import Moment, PlacedCause
 from armscope.robot.dynamics import MovingArm
 
@@ -37,6 +38,16 @@ class Estimate:
     def inertial_in(self, run: str) -> Array:
         """(10 n,) inertial parameters in a run."""
         return self.inertial + self.of_runs.get(run, 0.0)
+
+    @property
+    def smooth(self) -> Estimate:
+        """Without ripple, which drives round off as it is recorded: as fast as it is, its size would go with that."""
+        return replace(self, laws=tuple(law for law in self.laws if law[0].cause is not RIPPLE))
+
+    @property
+    def rippled(self) -> Estimate:
+        """With no law but ripple."""
+        return replace(self, laws=tuple(law for law in self.laws if law[0].cause is RIPPLE))
 
     def with_laws(self, moment: Moment) -> Moment:
         """What is predicted, with the torque of the laws."""

@@ -231,8 +231,9 @@ class _Piece:
             bare=stated + friction,
             read=stated + self._friction(np.nan_to_num(arm.stated_background)),
         )
-        self.moment = model.with_laws(moment)
-        self.rounded = dry.rounded(signals, self.moment.predicted, model.delay, rate)
+        smooth = model.smooth.with_laws(moment)
+        self.rounded = dry.rounded(signals, smooth.predicted, model.delay, rate)
+        self.moment = model.rippled.with_laws(smooth)
 
     def _friction(self, numbers: Array) -> Array:
         """(N, m) torque of offset, friction and rotor (m, 4) of each joint."""

@@ -16,7 +16,7 @@ from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.sides import side
-from armscope.motion.samples.preparation import without_lag
+from armscope.motion.samples.preparation import Signals, without_lag
 
 
 @dataclass(frozen=True)
@@ -159,9 +159,26 @@ def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Arra
     return smooth, path.derivative(1)(time), path.derivative(2)(time)
 
 
+def wave(signals: Signals, joint: int, count: float) -> Array:
+    """Sine and cosine of a joint's angle times a count, where samples show them.
+
+    A wave that passes faster than half the samples' rate would come back as a slow one, which the torque has not.
+
+    Args:
+        signals: N samples.
+        joint: from 0.
+        count: waves per turn.
+
+    Returns:
+        (N, 2).
+    """
+    turned = count * signals.q[:, joint]
+    shown = count * np.abs(signals.dq[:, joint]) * signals.period < np.pi
+    return np.column_stack([np.sin(turned), np.cos(turned)]) * shown[:, None]
+
+
 def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:
-    turned = count * m.signals.q[:, joints[0]]
-    return np.column_stack([np.sin(turned), np.cos(turned)])
+    return wave(m.signals, joints[0], count)
 
 
 def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:

@@ -98,10 +98,11 @@ class MotionModel:
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
         gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
         moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
-        moment = followed.with_laws(moment)
+        moment = followed.smooth.with_laws(moment)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints)
         total += self.response * dry.rounded(signals, moment.predicted, followed.delay, rate)
+        moment = followed.rippled.with_laws(moment)
         true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
         _add(total, true, moment)
         moment = replace(moment, read=total.copy())
