@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.core.types import unheard
-from armscope.diagnosis.implausible import implausible_effects, more_plausible
+from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.implausible import _pushing, _taken_back, more_plausible
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.registration import fit_frames
 from armscope.inference.evidence import evaluate
@@ -16,9 +17,11 @@ from armscope.inference.problem import SelectedEffect
 from armscope.measurement.noise import Noise
 from armscope.physics.effect import Part
 from armscope.physics.frames import free_frames
+from armscope.robot.arm import build_arm
 
 from ..backgrounds import sizes
-from .planted import Wanted, planted
+from ..physics.scenes import arm_named
+from .planted import Wanted, one_run, planted, recorded
 
 ROWS = 100
 
@@ -40,7 +43,7 @@ def test_a_name_within_a_background_may_not_be_negative_where_it_gives_way(compl
     loop, number = named({("joint_compliance", "joint 2"): [compliance]}, nested=True)
     fit = loop._fitted(loop.best)
     assert np.sign(fit.model.parts[0].values[0]) == np.sign(compliance)
-    assert implausible_effects(loop.problem, loop.space, loop.best, fit) == ([number] if pushes else [])
+    assert _pushing(loop.space, loop.best, fit) == ([number] if pushes else [])
 
 
 @pytest.mark.parametrize(
@@ -59,7 +62,7 @@ def test_a_value_beyond_what_arms_show_is_no_name_where_the_tool_misses_by_less(
     (part,) = fit.model.parts
     # as a fit leaves it beside gears' waves that are as large: their sum is what the rows hold
     told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([fitted_ratio])),)))
-    assert implausible_effects(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])
+    assert _taken_back(loop.problem, loop.best, told) == ([number] if is_none else [])
 
 
 @pytest.mark.parametrize(("joint", "gives_way"), [("joint 6", True), ("joint 3", False)])
@@ -74,3 +77,22 @@ def test_a_value_beyond_what_arms_show_gives_way_to_a_name_that_says_the_same(jo
     assert (number not in other.candidates) == gives_way
     assert bool(fitted.model.parts[0].implausible) != gives_way
     assert more_plausible(loop.problem, loop.best, fit, loop._fitted) == (loop.best, fit)
+
+
+def test_two_rows_that_are_wrong_by_the_same_are_named_though_each_moves_more_than_is_missed():
+    """An offset that belongs to one row, stated on the next: each alone would move the tool by more than it misses."""
+    arm = arm_named("parallelogram-120kg")
+    rows = list(arm.description.dh.joints)
+    for row, more_mm in ((3, 36.0), (4, -36.0)):
+        rows[row] = rows[row].model_copy(update={"a_mm": rows[row].a_mm + more_mm})
+    dh = arm.description.dh.model_copy(update={"joints": rows})
+    true = build_arm(arm.description.model_copy(update={"dh": dh}))
+    table = recorded(true, one_run(true, 250, 4), {}, 0.02, 4)
+    verdict = diagnose(arm, table, Settings(resamples=0, cross_validation=False))
+    assert {(e.effect, e.location) for e in verdict.effects} == {
+        ("link_geometry", "link 4"),
+        ("link_geometry", "link 5"),
+    }
+    assert verdict.residual_after_mm < 0.03
+    assert "by far more than arms do" in verdict.headline
+    assert not [word for word in ("36", "length") if word in verdict.headline]

@@ -80,6 +80,16 @@ class LoopBudget(Constants):
         "judgement: free, but not so that several run against each other",
         unit="sizes",
     )
+    taken_back: float = constant(
+        1.1,
+        "times the noise that a name leaves, up to which something else takes it back",
+        "judgement: hardly more is left without it; two wrong rows of a table leave many times more",
+    )
+    nearer: float = constant(
+        0.5,
+        "times the distance from any arm that was built, to which it must fall without such a name",
+        "judgement: what is taken back is two such values, and both are gone without one; what the rows hold stays",
+    )
     surely_negative: float = constant(
         3.0,
         "by which a compliance about one of two axes must be negative to be taken out",

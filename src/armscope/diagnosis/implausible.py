@@ -21,23 +21,57 @@ from armscope.physics.effect import Part
 from armscope.physics.elastic import TWO_AXES, stiffest_of_two
 
 
-def implausible_effects(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
-    """Names that don't stand once they are fitted with the exact model.
+def without_implausible(
+    problem: Problem, space: EffectSpace, hypothesis: Hypothesis, refit: Callable[[Hypothesis], Refit]
+) -> tuple[Hypothesis, Refit]:
+    """A hypothesis without the names that don't stand once they are fitted with the exact model.
 
     Args:
         problem: the sums that the names were chosen on.
         space: which effect each candidate is.
         hypothesis: with the names.
-        fit: its exact fit.
+        refit: makes the exact fit of a hypothesis.
 
     Returns:
-        Their candidates.
+        What is left of it, and its fit.
     """
-    return [
-        chosen.candidate
-        for chosen, part in zip(hypothesis.chosen, fit.model.parts, strict=True)
-        if _against_its_load(space, chosen, part, fit) or _taken_back(problem, chosen.candidate, part)
-    ]
+    fit, search = refit(hypothesis), Search.on(problem)
+    while pushing := _pushing(space, hypothesis, fit):
+        hypothesis = search.without(hypothesis, pushing)
+        fit = refit(hypothesis)
+    for candidate in _taken_back(problem, hypothesis, fit):
+        rest = search.without(hypothesis, [candidate])
+        fitted = refit(rest)
+        if fitted.noise < LOOP.taken_back * fit.noise and _distance(fitted) < LOOP.nearer * _distance(fit):
+            hypothesis, fit = rest, fitted
+    return hypothesis, fit
+
+
+def _distance(fit: Refit) -> float:
+    """How far an arm is from any that was built: the sum of squares of all its values in plausible sizes.
+
+    What two names, or a name and the background, take back from each other is gone once one of them goes. A value that
+    the rows hold is there without its name, too.
+    """
+    parts = (*fit.model.parts, *fit.model.background)
+    values = [(each, value) for part in parts for each, value in zip(part.placed.terms, part.values, strict=True)]
+    return float(sum((value / term.plausible) ** 2 for term, value in values if np.isfinite(term.plausible)))
+
+
+def _pushing(space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
+    """Candidates of the names that push against what they give way to."""
+    parts = zip(hypothesis.chosen, fit.model.parts, strict=True)
+    return [chosen.candidate for chosen, part in parts if _against_its_load(space, chosen, part, fit)]
+
+
+def _taken_back(problem: Problem, hypothesis: Hypothesis, fit: Refit) -> list[int]:
+    """Candidates of the names that something else may take back: larger than arms show, and than the tool misses.
+
+    A link that is 30 mm too long shows at the tool. Where less is seen, other causes may take the rest back, each of
+    them as far from any arm that was built: a way to write the rows, and nothing that somebody could find and mend.
+    """
+    parts = zip(hypothesis.chosen, fit.model.parts, strict=True)
+    return [chosen.candidate for chosen, part in parts if _moves_more(problem, chosen.candidate, part)]
 
 
 def more_plausible(
@@ -81,12 +115,8 @@ def _against_its_load(space: EffectSpace, chosen: SelectedEffect, part: Part, fi
     return pushing < -LOOP.surely_negative * stderr
 
 
-def _taken_back(problem: Problem, candidate: int, part: Part) -> bool:
-    """Whether values are larger than arms show, yet the tool misses by less than these would move it.
-
-    A link that is 30 mm too long shows at the tool. Where less is seen, other causes take the rest back, each of them
-    as far from any arm that was built: a way to write the rows, and nothing that somebody could find and mend.
-    """
+def _moves_more(problem: Problem, candidate: int, part: Part) -> bool:
+    """Whether values are larger than arms show, and would move the tool by more than it misses."""
     if not part.implausible:
         return False
     columns = problem.space.candidates[candidate].columns

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from armscope.core.types import Array, Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
-from armscope.diagnosis.implausible import implausible_effects, more_plausible
+from armscope.diagnosis.implausible import more_plausible, without_implausible
 from armscope.diagnosis.kept_effects import kept_effects
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.naming import named
@@ -210,11 +211,9 @@ class SelectionLoop:
 
     def _fit(self, best: Hypothesis, of_all: bool = False) -> None:
         """The exact fit of the names, without those that no arm can have."""
-        self.best, self.fit = best, self._fitted(best, of_all)
-        while none_has := implausible_effects(self.problem, self.space, self.best, self.fit):
-            self.best = Search.on(self.problem).without(self.best, none_has)
-            self.fit = self._fitted(self.best, of_all)
-        self.best, self.fit = more_plausible(self.problem, self.best, self.fit, lambda h: self._fitted(h, of_all))
+        again = partial(self._fitted, of_all=of_all)
+        left, fit = without_implausible(self.problem, self.space, best, again)
+        self.best, self.fit = more_plausible(self.problem, left, fit, again)
 
     def _fitted(self, best: Hypothesis, of_all: bool = False) -> Refit:
         """A hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""

@@ -213,6 +213,10 @@ def _remainder(verdict: Diagnosis) -> str:
     return f"the {millimetres(verdict.residual_after_mm)} that remain are noise"
 
 
+SURELY = 5.0
+"""Standard errors from zero at which a value is no open one."""
+
+
 def phrase(effect: FoundEffect) -> str:
     """One effect as a clause: who does what, by how much."""
     if effect.named_as != "effect":
@@ -223,7 +227,8 @@ def phrase(effect: FoundEffect) -> str:
 def exact_phrase(effect: FoundEffect) -> str:
     """The clause at the level of the single effect, however sure that is."""
     known = effect_named(effect.effect)
-    return say(known.clauses if known else (), _told(effect))
+    told = say(known.clauses if known else (), _told(effect))
+    return f"{told} by far more than arms do that were built so" if _beyond_arms(effect) else told
 
 
 def atlas_column(effect: FoundEffect) -> str:
@@ -234,11 +239,17 @@ def atlas_column(effect: FoundEffect) -> str:
 
 
 def _told(effect: FoundEffect) -> Told:
-    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in effect.parameters if not implausible(p, effect)}
+    told = () if _beyond_arms(effect) else effect.parameters  # a small number beside one that is not told misleads
+    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in told if not implausible(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)
     return Told(effect.effect, effect.location, effect.driver, numbers)
+
+
+def _beyond_arms(effect: FoundEffect) -> bool:
+    """Whether a value that is sure lies beyond what arms have."""
+    return any(implausible(p, effect) and abs(p.value) > SURELY * p.stderr for p in effect.parameters)
 
 
 def _cannot_tell(verdict: Diagnosis) -> str:
