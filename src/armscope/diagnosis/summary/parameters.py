@@ -11,6 +11,7 @@ from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.effect import Part, Placed
 from armscope.verdict.effects import Parameter
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import plain
 
 Reading = Callable[[Array], Array]
 
@@ -43,7 +44,7 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
 def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
     """What to say where a value is larger than real arms show; None where none is."""
     beyond = [
-        f"{term.name} of {part.placed} by {value / term.si:.3g} {term.unit}"
+        plain(f"{term.name} of {part.placed} by {value / term.si:+.3g} {term.unit}")
         for part in parts
         for term, value in part.implausible
     ]
@@ -51,8 +52,8 @@ def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
         return None
     listed = "; ".join(beyond[: TELLING.implausible_values])
     text = (
-        f"Larger than arms show that were built to their drawing: {listed}. Is this another model of the arm, "
-        "another convention of its rows, or a wrong unit?"
+        f"Larger than arms show that were built to their drawing: {listed}. Compare robot.yaml with the drawing first: "
+        "is this another model of the arm, another convention of its rows, a number on the next row, or a wrong unit?"
     )
     return Notice("implausible", text)
 
