@@ -83,13 +83,15 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
 
 
 def test_a_row_that_fits_nobody_is_told_with_its_id_and_by_how_much(arm, sound):
-    """A digit mistyped in one point; and a third of the rows is a pattern, of which no row is to be deleted."""
+    """A digit mistyped in one point; a third of the rows is a pattern, and twenty times the misfit may be physics."""
     moved = sound.positions + np.where(np.arange(len(sound)) == 10, 0.12, 0)[:, None] * [0, 1, 0]
     (hint,) = check(replace(sound, positions=moved), arm).suspicions
     told = re.fullmatch(r"1 row lies (\S+) mm from where all others put the tool: a: 11\. .*", hint.text())
     assert hint.weight == "hint"
     assert told is not None
     assert float(told[1]) == pytest.approx(120, rel=0.02)
+    less = sound.positions + (moved - sound.positions) * 0.3
+    assert check(replace(sound, positions=less), arm).suspicions == ()
     far = np.random.default_rng(2).normal(0, 0.05, sound.positions.shape) * (np.arange(len(sound)) % 3 == 0)[:, None]
     some = check(replace(sound, positions=sound.positions + far), arm).suspicions
     assert not [each for each in some if "all others" in each.text()]

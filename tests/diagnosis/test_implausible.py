@@ -94,5 +94,5 @@ def test_two_rows_that_are_wrong_by_the_same_are_named_though_each_moves_more_th
         ("link_geometry", "link 5"),
     }
     assert verdict.residual_after_mm < 0.03
-    assert "by far more than arms do" in verdict.headline
+    assert "far beyond what arms show" in verdict.headline
     assert not [word for word in ("36", "length") if word in verdict.headline]

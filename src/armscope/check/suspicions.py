@@ -194,7 +194,8 @@ def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     rows = set_up(arm, some)
     state = placed(rows, TRIALS.steps)
     residuals = rows.residuals(state)
-    if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * scale_of(residuals):
+    misfit = scale_of(residuals)
+    if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * misfit:
         return []
     residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
     distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
@@ -213,12 +214,13 @@ def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     if len(exchanged):
         statement = f"{len(exchanged)} rows seem to have exchanged their points: {_ids(some, exchanged)}"
         found.append(Suspicion("problem", statement, "Their points fit each other's joint angles."))
+    alone = alone[distance[alone] > TRIALS.alone * misfit]
     if 0 < len(alone) <= TRIALS.most_alone * len(some):
         alone = alone[np.argsort(-distance[alone])]
         number = "1 row lies" if len(alone) == 1 else f"{len(alone)} rows lie, the furthest first,"
         off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
         statement = f"{number} {off} from where all others put the tool: {_ids(some, alone)}"
-        cure = "Mistyped, or measured while the arm moved? Mend it or leave it out; a diagnosis gives it no weight."
+        cure = "Mistyped, or measured while the arm moved? Mend it, or leave out what can't be measured again."
         found.append(Suspicion("hint", statement, cure))
     return found
 

@@ -36,15 +36,19 @@ def without_implausible(
         What is left of it, and its fit.
     """
     fit, search = refit(hypothesis), Search.on(problem)
-    while pushing := _pushing(space, hypothesis, fit):
-        hypothesis = search.without(hypothesis, pushing)
-        fit = refit(hypothesis)
-    for candidate in _taken_back(problem, hypothesis, fit):
-        rest = search.without(hypothesis, [candidate])
+    tried: set[int] = set()
+    while True:
+        while pushing := _pushing(space, hypothesis, fit):
+            hypothesis = search.without(hypothesis, pushing)
+            fit = refit(hypothesis)
+        untried = [candidate for candidate in _taken_back(problem, hypothesis, fit) if candidate not in tried]
+        if not untried:
+            return hypothesis, fit
+        tried.add(untried[0])
+        rest = search.without(hypothesis, untried[:1])
         fitted = refit(rest)
         if fitted.noise < LOOP.taken_back * fit.noise and _distance(fitted) < LOOP.nearer * _distance(fit):
             hypothesis, fit = rest, fitted
-    return hypothesis, fit
 
 
 def _distance(fit: Refit) -> float:

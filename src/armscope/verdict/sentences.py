@@ -214,7 +214,7 @@ def _remainder(verdict: Diagnosis) -> str:
 
 
 SURELY = 5.0
-"""Standard errors from zero at which a value is no open one."""
+"""Standard errors from zero at which a value is no open one (judgement: one chance in two million)."""
 
 
 def phrase(effect: FoundEffect) -> str:
@@ -228,7 +228,7 @@ def exact_phrase(effect: FoundEffect) -> str:
     """The clause at the level of the single effect, however sure that is."""
     known = effect_named(effect.effect)
     told = say(known.clauses if known else (), _told(effect))
-    return f"{told} by far more than arms do that were built so" if _beyond_arms(effect) else told
+    return f"{told}, far beyond what arms show" if _beyond_arms(effect) else told
 
 
 def atlas_column(effect: FoundEffect) -> str:
