@@ -25,8 +25,8 @@ from tests.campaign.trial import (
 )
 
 TARGETS = ("results/small/proof/small/report.html", "results/small/paper/table2.csv")
-SHORTER = ("results/small/paper/table2.csv", "results/small/fleet/fleet/report.html")
 FLEET = "four/fleet.csv"
+SHORTER = ("results/small/paper/table2.csv", "results/small/fleet/four-fleet/report.html")
 FIXED = ("--configfile", "config/small.yaml", "--config", "proof_seed=5", "recordings_dir=nowhere")
 
 
