@@ -258,8 +258,12 @@ def test_a_value_beyond_what_arms_have_is_not_printed(tmp_path):
     numbers = verdicts.Parameter("a", "mm", 844.0, 65.0), verdicts.Parameter("alpha", "rad", 7e-4, 1e-5)
     case = verdicts.case(effects=(verdicts.found("link_geometry", "link 2", *numbers),))
     path = write_report(case.verdict, tmp_path)
-    for page in (path, path.with_name("work-order.html"), path.with_name("corrected_dh.csv")):
+    order = path.with_name("work-order.html")
+    for page in (path, order):
         assert "844" not in page.read_text().split("application/json")[0]
+    assert not path.with_name("corrected_dh.csv").exists(), "a table without it would be half of one"
+    assert "enter nothing before" in order.read_text()
+    assert "corrected_dh.csv" not in order.read_text()
     assert "undetermined" in path.read_text()
     assert "844" not in case.verdict.headline
 

@@ -16,7 +16,7 @@ from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_fil
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.entries import entry_decimals
-from armscope.verdict.wording import implausible
+from armscope.verdict.wording import beyond_arms, implausible
 
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
@@ -50,10 +50,22 @@ def as_entered(zeros: pd.DataFrame) -> pd.DataFrame:
     return rounded
 
 
+def wrongly_stated(verdict: Diagnosis) -> bool:
+    """Whether a link is off by more than arms show: a table of corrections without that would be half of one."""
+    return any(effect.effect == LINK_GEOMETRY.name and beyond_arms(effect) for effect in verdict.effects)
+
+
 def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The D-H rows as stated and as found, mm and degrees, without the zeros; None for an arm that has no D-H rows."""
+    """The D-H rows as stated and as found, mm and degrees, without the zeros.
+
+    Args:
+        verdict: of the arm.
+
+    Returns:
+        A line per row; None for an arm that has no D-H rows, or is wrongly stated.
+    """
     dh = verdict.model.arm.description.dh
-    if dh is None:
+    if dh is None or wrongly_stated(verdict):
         return None
     rows = []
     for j, stated in enumerate(dh.joints, start=1):
@@ -93,9 +105,16 @@ def corrected_cells(verdict: Diagnosis) -> list[list[str]]:
 
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The origins of the chain's joints in the URDF as stated and as found, without the zeros; None for D-H rows."""
+    """The origins of the chain's joints in the URDF as stated and as found, without the zeros.
+
+    Args:
+        verdict: of the arm.
+
+    Returns:
+        A line per joint; None for D-H rows, or an arm that is wrongly stated.
+    """
     arm = verdict.model.arm
-    if arm.description.dh is not None:
+    if arm.description.dh is not None or wrongly_stated(verdict):
         return None
     found = {e.location: e for e in verdict.effects if e.effect == LINK_GEOMETRY.name}
     rows = []

@@ -17,6 +17,7 @@ from armscope.verdict.wording import (
     SMALL,
     SPREAD,
     also_out,
+    beyond_arms,
     capitalised,
     effect_in_words,
     enumerated,
@@ -213,10 +214,6 @@ def _remainder(verdict: Diagnosis) -> str:
     return f"the {millimetres(verdict.residual_after_mm)} that remain are noise"
 
 
-SURELY = 5.0
-"""Standard errors from zero at which a value is no open one (judgement: one chance in two million)."""
-
-
 def phrase(effect: FoundEffect) -> str:
     """One effect as a clause: who does what, by how much."""
     if effect.named_as != "effect":
@@ -228,7 +225,7 @@ def exact_phrase(effect: FoundEffect) -> str:
     """The clause at the level of the single effect, however sure that is."""
     known = effect_named(effect.effect)
     told = say(known.clauses if known else (), _told(effect))
-    return f"{told}, far beyond what arms show" if _beyond_arms(effect) else told
+    return f"{told}, far beyond what arms show" if beyond_arms(effect) else told
 
 
 def atlas_column(effect: FoundEffect) -> str:
@@ -239,17 +236,12 @@ def atlas_column(effect: FoundEffect) -> str:
 
 
 def _told(effect: FoundEffect) -> Told:
-    told = () if _beyond_arms(effect) else effect.parameters  # a small number beside one that is not told misleads
+    told = () if beyond_arms(effect) else effect.parameters  # a small number beside one that is not told misleads
     numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in told if not implausible(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)
     return Told(effect.effect, effect.location, effect.driver, numbers)
-
-
-def _beyond_arms(effect: FoundEffect) -> bool:
-    """Whether a value that is sure lies beyond what arms have."""
-    return any(implausible(p, effect) and abs(p.value) > SURELY * p.stderr for p in effect.parameters)
 
 
 def _cannot_tell(verdict: Diagnosis) -> str:

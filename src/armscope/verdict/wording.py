@@ -260,6 +260,15 @@ def implausible(parameter: Parameter, effect: FoundEffect) -> bool:
     return max(abs(parameter.value), open_by) > bound
 
 
+SURELY = 5.0
+"""Standard errors from zero at which a value is no open one (judgement: one chance in two million)."""
+
+
+def beyond_arms(effect: FoundEffect) -> bool:
+    """Whether a value that is sure lies beyond what arms have: what was stated of the arm is to be looked at first."""
+    return any(implausible(p, effect) and abs(p.value) > SURELY * p.stderr for p in effect.parameters)
+
+
 def effect_in_words(effect: str, location: str) -> str:
     """ "joint_compliance" at "joint 2" as "joint compliance at joint 2"; "base_shift" at "base" as "base shift"."""
     return plain(effect if effect.startswith(location) else f"{effect} at {location}")

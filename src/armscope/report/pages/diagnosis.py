@@ -19,7 +19,14 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.controllers import ur_kinematics
-from armscope.verdict.corrections import as_entered, corrected_cells, corrected_origins, corrected_rows, zero_offsets
+from armscope.verdict.corrections import (
+    as_entered,
+    corrected_cells,
+    corrected_origins,
+    corrected_rows,
+    wrongly_stated,
+    zero_offsets,
+)
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
@@ -59,9 +66,10 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
     write_table(folder / ZEROS, as_entered(zeros))
-    for name, table in ((ROWS, rows), (ORIGINS, corrected_origins(verdict))):
-        if table is not None:
-            write_table(folder / name, table)
+    either = {ROWS: rows, ORIGINS: corrected_origins(verdict)}
+    corrected = {name: table for name, table in either.items() if table is not None}
+    for name, table in corrected.items():
+        write_table(folder / name, table)
     if kinematics is not None:
         write_yaml(folder / UR, kinematics)
     dh = verdict.model.arm.description.dh
@@ -78,7 +86,8 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
-        "tables": [ZEROS, *([ORIGINS] if rows is None else [ROWS]), *([UR] if kinematics else [])],
+        "wrongly_stated": wrongly_stated(verdict),
+        "tables": [ZEROS, *corrected, *([UR] if kinematics else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
