@@ -127,7 +127,7 @@ def prior_costs(space: ModelSpace) -> Array:
             PRIORS.sure_nats
             + np.log(space.kinds)
             + np.log(len(locations[candidate.kind]))
-            + np.log(candidate.multiplicity if candidate.multiplicity > 1 else variants.get(candidate.key, 1))
+            + math.log(candidate.multiplicity if candidate.multiplicity > 1 else variants.get(candidate.key, 1))
             for candidate in space.candidates
         ]
     )

@@ -17,6 +17,7 @@ from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
@@ -33,6 +34,7 @@ from armscope.motion.summary.holding_out import (
     as_entered,
     errors_by_run,
     folds,
+    held_out_in_words,
     held_out_torques,
     measure,
     own_fold,
@@ -158,6 +160,7 @@ def diagnose_motion(
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = select_causes(layout, train, how, runs, weighing, first.model)
+    selected = with_changes(selected, seen, train, how, _carried(motions), weighing)
     selected = tenable(rather_all_links(selected, selected.space.starts[1]), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
@@ -224,8 +227,7 @@ def _judged(
 ) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[float, ...]]:
     if test is None:
         parts = folds(selected)
-        single = len(parts) == 1
-        what = "the last two fifths of the motion" if single else "each run in turn"
+        what = held_out_in_words(parts)
     else:
         parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
     held = held_out_torques(parts)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ import pandas as pd
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
+from armscope.motion.library.changes_catalogue import CHANGES
+from armscope.motion.library.clauses_of_changes import spells
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches
@@ -56,6 +59,7 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
     if rows.temperature is None and follows & set(WARM):
         rule = "a cause in the model follows it, so it must be known in every row"
         raise InputError(rows.source, "line 1", "no column temperature_c", rule, "Add it to the table.")
+    fitted, left_out = of_other_motion(fitted)
     torque, notes = torque_of_rows(fitted, rows)
     table = (
         pd.DataFrame({"run": rows.run, "time_s": rows.time}) if rows.run.any() else pd.DataFrame({"time_s": rows.time})
@@ -68,7 +72,22 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
             table[f"q{j + 1}_link_{'m' if fitted.arm.sliding[j] else 'rad'}"] = links[:, j]
     if fitted.kind == "current":
         table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
-    return table, notes
+    return table, [*notes, *left_out]
+
+
+def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
+    """The model without what came and went while its own motion was recorded, and a note on each.
+
+    What the arm carried then, or read, no other motion has, nor the same path once more.
+    """
+    changes = [cause for cause in model.causes if cause.placed.cause in CHANGES]
+    kept = tuple(cause for cause in model.causes if cause not in changes)
+    notes = [
+        f"Not in this prediction: {cause.placed} ({spells(cause.placed.scanned)}), which came and went while the "
+        "model's own motion was recorded. State what is carried as payload_kg in every row."
+        for cause in changes
+    ]
+    return replace(model, causes=kept), notes
 
 
 def torque_of_rows(model: MotionModel, motions: Motions) -> tuple[Array, list[str]]:

@@ -51,12 +51,12 @@ class PathAgreement:
     @property
     def undetermined(self) -> bool:
         """Whether nothing but all of the motion together tells a size that every part of it should have."""
-        return not self.tested and not self.runs
+        return not self.tested and not (self.runs and self.paths)
 
     @property
     def words(self) -> str:
         """In a sentence."""
-        if self.runs:
+        if self.runs and self.paths:
             return f"it is there in run {', '.join(self.runs)} only: no other path tells its size"
         if not self.tested:
             return f"by themselves, no two {'paths' if self.paths else PARTS} tell its size"

@@ -10,6 +10,8 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.motion.library.catalogue import RIPPLE
 from armscope.motion.library.causes import Moment, PlacedCause
+from armscope.motion.samples.preparation import Signals
+from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
 
@@ -24,6 +26,7 @@ class Estimate:
         of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
         of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
         laws: causes of one joint that follow the motion alone, with their numbers: a delay is theirs, too.
+        loads: what is carried for some of a run only, with its numbers.
         gain: (m,) by which recorded torque exceeds the true one; None: by nothing.
     """
 
@@ -33,7 +36,14 @@ class Estimate:
     of_runs: Mapping[str, Array] = field(default_factory=dict)
     of_bodies: bool = True
     laws: tuple[tuple[PlacedCause, Array], ...] = ()
+    loads: tuple[tuple[PlacedCause, Array], ...] = ()
     gain: Array | None = None
+
+    def carried(self, signals: Signals, bodies: Bodies) -> Array | float:
+        """(N, m) torque of what is carried for some of a run only, of N samples."""
+        none = np.zeros_like(signals.q)
+        moment = Moment(signals, none, none, None, 1 / signals.period, bodies)
+        return sum((placed.columns_in(moment) @ values for placed, values in self.loads), 0.0)
 
     def inertial_in(self, run: str) -> Array:
         """(10 n,) inertial parameters in a run."""
@@ -56,7 +66,7 @@ class Estimate:
         predicted = moment.predicted.copy()
         for placed, values in self.laws:
             assert placed.columns is not None
-            predicted[:, list(placed.joints)] += placed.columns(moment) @ values
+            predicted[:, list(placed.joints)] += placed.columns_in(moment) @ values
         return replace(moment, predicted=predicted)
 
 

@@ -12,6 +12,9 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.changes import as_it_is_carried
+from armscope.motion.library.changes_catalogue import LOAD_CHANGE
+from armscope.motion.library.for_a_while import OF_A_LOAD
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
@@ -29,6 +32,10 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
             exact, rests = _exact(selected, number)
             placed[number], moved = exact, moved or not rests
+            continue
+        if cause.cause is LOAD_CHANGE:
+            placed[number], rests = _as_carried(selected, number)
+            moved = moved or not rests
             continue
         if cause.cause is catalogue.GRAVITY:
             placed[number], rests = _leaning(selected, number)
@@ -104,3 +111,17 @@ def _leaning(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
     error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
     change = float(np.linalg.norm(values @ (after - before)))
     return exact, change <= NOISE.settled * float(np.linalg.norm(error @ np.abs(before)))
+
+
+def _as_carried(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
+    """A load that comes and goes as bodies have it, and whether its inertia was formed for it, within errors."""
+    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
+    cause, values = layout.placed[number], selected.coefficients[columns]
+    exact = as_it_is_carried(cause, layout.arm, values)
+    if exact is cause or not (isinstance(cause.columns, Law) and isinstance(exact.columns, Law)):
+        return cause, True
+    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+    before, after = (np.array(each.numbers[1 : 1 + len(OF_A_LOAD)]) for each in (cause.columns, exact.columns))
+    counted = [OF_A_LOAD.index(name) for name, _ in cause.parameters]
+    rests = bool(np.all(np.abs(after - before)[counted] <= NOISE.settled * error))
+    return (cause if rests else exact), rests

@@ -211,12 +211,12 @@ class _Piece:
         self.background = own_columns(arm, signals, model.delay)
         inertial = model.inertial_in(signals.run)
         rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
-        rigid = rigid + samples.carried
+        bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
+        rigid = rigid + samples.carried + model.carried(signals, bodies)
         friction, stated = self._friction(model.background), samples.torque + samples.carried
         gravity = None
         if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
-        bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
         dry = DryFriction.of(arm, model.background[:, 1])
         rate = how.rate / signals.stride
         moment = Moment(
@@ -293,7 +293,7 @@ class _Piece:
         for number in causes:
             cause, index = self.layout.placed[number], self.layout.columns[number]
             if cause.columns is not None:
-                values = cause.columns(self.moment)
+                values = cause.columns_in(self.moment)
                 for n, joint in enumerate(cause.joints):
                     own[joint][0].append(values[:, n])
                     own[joint][1].append(index)

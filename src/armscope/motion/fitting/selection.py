@@ -27,6 +27,7 @@ from armscope.motion.fitting.torque_delay import Between
 from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_inside_and_apart, weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.laws import follows_motion
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.samples.preparation import Preparation
@@ -38,19 +39,23 @@ def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
     delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
     laws: list[tuple[PlacedCause, Array]] = []
+    loads: list[tuple[PlacedCause, Array]] = []
     for cause, columns in zip(layout.placed, layout.columns, strict=True):
         if cause.inertial is not None and not cause.runs:
             inertial = inertial + cause.inertial @ coefficients[columns]
         elif cause.inertial is not None and np.any(coefficients[columns]):
             for run in cause.runs:
                 of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
+        elif cause.cause is LOAD_CHANGE and np.any(coefficients[columns]):
+            loads.append((cause, coefficients[columns]))
         elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
             laws.append((cause, coefficients[columns]))
         if cause.cause is catalogue.DELAY:
             delay[cause.joints[0]] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
-    return Estimate(inertial, background, delay, of_runs, laws=tuple(laws), gain=gain_of(layout, coefficients))
+    gain = gain_of(layout, coefficients)
+    return Estimate(inertial, background, delay, of_runs, laws=tuple(laws), loads=tuple(loads), gain=gain)
 
 
 def select_causes(

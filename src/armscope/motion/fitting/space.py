@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.model_space import BackgroundFamily, Candidate, ModelSpace, ToleranceFamily
+from armscope.inference.model_space import BackgroundFamily, Candidate, Exchange, ModelSpace, ToleranceFamily
 from armscope.motion.constants import PRIOR
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
+from armscope.motion.library.change_constants import CHANGE
+from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
 
@@ -50,8 +54,21 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
     return ModelSpace(
-        frames=layout.frames, families=tuple(families), candidates=_candidates(layout, barred), starts=tuple(starts)
+        frames=layout.frames,
+        families=tuple(families),
+        candidates=_candidates(layout, barred),
+        starts=tuple(starts),
+        exchanges=tuple(_changes_for_payloads(layout, barred)),
     )
+
+
+def _changes_for_payloads(layout: TorqueLayout, barred: frozenset[int]) -> Iterator[Exchange]:
+    """A load that comes and goes for one that is said to be there all the time, and is taken back while it is not."""
+    standing = [n for n, cause in enumerate(layout.placed) if cause.cause is catalogue.PAYLOAD]
+    changing = [n for n, cause in enumerate(layout.placed) if cause.cause is LOAD_CHANGE and n not in barred]
+    for run in dict.fromkeys(layout.placed[n].runs for n in changing):
+        taken_back = {n: None for n in standing if layout.placed[n].runs in ((), run)}
+        yield Exchange(taken_back, tuple(n for n in changing if layout.placed[n].runs == run))
 
 
 def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate, ...]:
@@ -59,9 +76,10 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
     beside: dict[str, list[int]] = {}
     for number, cause in enumerate(placed):
         beside.setdefault(cause.location, []).append(number)
-    candidates = []
+    changing, candidates = [n for n, cause in enumerate(placed) if cause.cause in CHANGES], []
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
         excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
+        excludes |= frozenset(n for n in changing if _at_the_same_moments(cause, placed[n]))
         candidates.append(
             Candidate(
                 kind=cause.cause.name,
@@ -73,7 +91,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 label=str(cause),
                 family=cause.cause.family,
                 region=region_of(cause),
-                plausible=_plausible(cause),
+                plausible=_plausible(cause, layout),
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
@@ -93,11 +111,14 @@ def _contains(one: PlacedCause, other: PlacedCause) -> bool:
     return one.cause is catalogue.CURVE and OWNED.get(one.driver) is other.cause
 
 
-def _plausible(cause: PlacedCause) -> Array | None:
-    """How far a gain may be off; of other causes anything is plausible.
+def _plausible(cause: PlacedCause, layout: TorqueLayout) -> Array | None:
+    """How far a gain may be off, or what an arm picks up; of other causes anything is plausible.
 
     Where masses are far off and a joint carries little, a gain of thirty would be one more column of these masses.
     """
+    if cause.cause is LOAD_CHANGE:
+        usual = CHANGE.usual_load * float(layout.arm.inertial[::10].sum())
+        return np.array([usual * (1.0 if unit == "kg" else layout.reach) for _, unit in cause.parameters])
     if not is_of_a_gain(cause.columns):
         return None
     return np.array([PRIOR.unsure_gain, *[np.inf] * (cause.width - 1)])
@@ -145,7 +166,14 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
         own = (OWNS.get(owner.cause), OWNED.get(owner.driver) if owner.cause is catalogue.CURVE else None)
         if owned.cause in own or _at_all_temperatures(owner) is owned.cause:
             return True
+    if one.cause in CHANGES and one.runs == other.runs:
+        return one.cause is other.cause
     return one.cause is other.cause and not (one.runs or other.runs)
+
+
+def _at_the_same_moments(one: PlacedCause, other: PlacedCause) -> bool:
+    """Whether one is a load that comes and goes, and the other a reading that jumps with it: either is all there is."""
+    return {one.cause, other.cause} == set(CHANGES) and one.runs == other.runs
 
 
 def _at_all_temperatures(cause: PlacedCause) -> Cause | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from armscope.motion.library import clauses, remedies, remedies_of_laws
 from armscope.motion.library.causes import Cause
+from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.verdict.effects import UNKNOWN
 
@@ -258,7 +259,7 @@ CAUSES = (
     COULOMB, VISCOUS, ROTOR, OFFSET, ASYMMETRY, STRIBECK, LOAD_FRICTION, VISCOUS_CURVE, TEMPERATURE_FRICTION,
     COUPLED_FRICTION, COUPLED_INERTIA, GAIN,
     DELAY, COMPLIANCE, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
-    GRAVITY, CURVE,
+    GRAVITY, *CHANGES, CURVE,
 )  # fmt: skip
 
 

@@ -157,6 +157,13 @@ class PlacedCause:
         """Number of its columns."""
         return len(self.parameters)
 
+    def columns_in(self, moment: Moment) -> Array:
+        """(N, joints, c) its columns at samples; zero in runs in which it is not there."""
+        assert self.columns is not None
+        if self.runs and moment.signals.run not in self.runs:
+            return np.zeros((len(moment.rigid), len(self.joints), self.width))
+        return self.columns(moment)
+
     def __str__(self) -> str:
         return f"{self.cause.name.replace('_', ' ')} at {self.location}"
 

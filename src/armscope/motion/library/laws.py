@@ -15,6 +15,7 @@ from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
+from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.sides import side
 from armscope.motion.samples.preparation import Signals, without_lag
 
@@ -287,6 +288,9 @@ LAWS: dict[str, Callable[..., Array]] = {
     "rubbing of two": _rubbing,
     "inertia of two": _inert,
     "leaning gravity": _lean,
+    "load for a while": load_for_a_while,
+    "tool load for a while": tool_load_for_a_while,
+    "offset for a while": offset_for_a_while,
     **{f"curve over {driver}": _curve(driver) for driver in DRIVERS},
 }
 """Every law by its name in a model file: a function of the samples, the joints and the law's numbers."""

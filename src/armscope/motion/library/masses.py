@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 import scipy.linalg
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
+from armscope.motion.library.for_a_while import OF_A_LOAD, of_a_load
 from armscope.motion.library.laws import Law
 from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
 
@@ -35,7 +36,7 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
             yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
     if arm.n_links > 1:
-        yield from _payloads(seen, _of_a_load(arm, arm.point_load()[-10:-6]))
+        yield from _payloads(seen, of_a_load(arm, arm.point_load()[-10:-6]))
         yield from _gravity(seen, tuple(range(arm.n_motors)))
 
 
@@ -73,43 +74,40 @@ def as_a_body(placed: PlacedCause, arm: MovingArm, values: Array, stated: float 
     Returns:
         It, with other columns; itself where what is carried has no mass, or where the motion tells no mass.
     """
-    axes = [("mass", "mx", "my", "mz").index(name) for name, _ in placed.parameters]
+    axes = [OF_A_LOAD.index(name) for name, _ in placed.parameters]
     if 0 not in axes or stated + values[0] <= 0:
         return placed
-    return replace(placed, inertial=_of_a_load(arm, values, stated)[:, axes])
+    return replace(placed, inertial=of_a_load(arm, values, stated)[:, axes])
 
 
-def _of_a_load(arm: MovingArm, values: Array, stated: float = 0.0) -> Array:
-    """(10 n, 4) inertial parameters per kg and kg m of a load of such mass and moments, beside one at the tool point.
+def shown(seen: Seen, inertial: Array) -> Indices:
+    """Which columns of inertial parameters the motion can tell, by pivoted QR.
 
-    Its inertia goes with the square of its place; about its own centre it is taken to have none. Without that, a load
-    off the flange was told as a mass at the tool, moments of the last link and an inertia.
+    Args:
+        seen: of the table.
+        inertial: (10 n, c) inertial parameters per unit of each column.
+
+    Returns:
+        Their numbers, ascending.
     """
-    before, found = stated * arm.point_load()[-10:-6], np.zeros((len(arm.inertial), 4))
-    found[-10:-6] = np.eye(4)
-    at, weight = np.polynomial.legendre.leggauss(8)
-    for share, part in zip((at + 1) / 2, weight / 2, strict=True):  # the change is the mean slope, along with the load
-        body = np.array([*(before + share * values), *np.zeros(6)])
-        slope = moved_centre(body)[4:]
-        found[-6:, 1:] += part * slope
-        found[-6:, 0] -= part * slope @ body[1:4] / (2 * body[0])
-    return found
+    torque = seen.regressor @ inertial
+    size = np.sqrt(np.mean(torque**2, axis=0))
+    at_all = np.flatnonzero(size > LIBRARY.least_shown * np.sqrt(np.mean((seen.regressor @ seen.arm.inertial) ** 2)))
+    if not len(at_all):
+        return at_all
+    _, R, order = scipy.linalg.qr(torque[:, at_all] / size[at_all], mode="economic", pivoting=True)
+    diagonal = np.abs(np.diag(R))
+    told = np.sort(at_all[order[: len(diagonal)][diagonal > LIBRARY.redundant_columns * diagonal[0]]])
+    return np.asarray(told)
 
 
 def _inertial(
     seen: Seen, cause: Cause, place: str, names: tuple[tuple[str, str], ...], inertial: Array, **more: Any
 ) -> Iterator[PlacedCause]:
-    """A cause made of inertial parameters, with those of its columns that the motion can tell, by pivoted QR."""
-    torque = seen.regressor @ inertial
-    size = np.sqrt(np.mean(torque**2, axis=0))
-    seen_at_all = np.flatnonzero(
-        size > LIBRARY.least_shown * np.sqrt(np.mean((seen.regressor @ seen.arm.inertial) ** 2))
-    )
-    if not len(seen_at_all):
+    """A cause made of inertial parameters, with those of its columns that the motion can tell."""
+    told = shown(seen, inertial)
+    if not len(told):
         return
-    _, R, order = scipy.linalg.qr(torque[:, seen_at_all] / size[seen_at_all], mode="economic", pivoting=True)
-    diagonal = np.abs(np.diag(R))
-    told = np.sort(seen_at_all[order[: len(diagonal)][diagonal > LIBRARY.redundant_columns * diagonal[0]]])
     every = tuple(range(seen.arm.n_motors))
     driver = "acceleration" if cause is catalogue.LINK_INERTIA else "load"
     yield PlacedCause(cause, place, driver, tuple(names[k] for k in told), every, inertial=inertial[:, told], **more)

@@ -13,6 +13,7 @@ from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Moment
+from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
@@ -65,8 +66,9 @@ class MotionModel:
             for each in self.causes
             if follows_motion(each.placed.columns, each.placed.joints)
         )
+        loads = tuple((each.placed, each.values) for each in self.causes if each.placed.cause is LOAD_CHANGE)
         background = self.joints[:, :CAUSES_OF_OWN]
-        return Estimate(self.inertial + everywhere, background, delay, of_runs, laws=laws)
+        return Estimate(self.inertial + everywhere, background, delay, of_runs, laws=laws, loads=loads)
 
     def _added(self, run: str | None) -> Array:
         """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
@@ -92,9 +94,9 @@ class MotionModel:
         followed = self.followed()
         joints, turning = self._turning()
         own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
-        rigid = regressor @ followed.inertial_in(signals.run) + carried
-        friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
+        rigid = regressor @ followed.inertial_in(signals.run) + carried + followed.carried(signals, bodies)
+        friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
         dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
         gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
         moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
@@ -144,7 +146,7 @@ class MotionModel:
 def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
     for cause in causes:
         if cause.placed.columns is not None:
-            total[:, list(cause.placed.joints)] += cause.placed.columns(moment) @ cause.values
+            total[:, list(cause.placed.joints)] += cause.placed.columns_in(moment) @ cause.values
 
 
 def fitted_model(

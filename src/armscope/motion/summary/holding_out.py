@@ -18,6 +18,10 @@ from armscope.motion.fitting.gains import gain_of
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.fitting.weights import noise_of, weighed
+from armscope.motion.library.change_constants import CHANGE
+from armscope.motion.library.changes import gate_of
+from armscope.motion.library.changes_catalogue import CHANGES
+from armscope.motion.library.for_a_while import there
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.verdict import HeldOutMotion, Step, relative
 
@@ -39,10 +43,10 @@ class Fold:
 
 
 def folds(selected: SelectedCauses) -> list[Fold]:
-    """Runs in turn; of a single run, the last two fifths once."""
+    """Runs in turn; of a single run, one end of it once."""
     count = len(selected.blocks)
     single = len(set(selected.rows.run.tolist())) == 1
-    parts = [tuple(range(3, NOISE.blocks_of_time))] if single else [(k,) for k in range(count)]
+    parts = [_end(selected)] if single else [(k,) for k in range(count)]
     made = []
     for held in parts:
         problem = _of_the_rest(selected, held)
@@ -52,6 +56,27 @@ def folds(selected: SelectedCauses) -> list[Fold]:
         which = np.flatnonzero(np.isin(selected.block, held))
         made.append(Fold(selected.rows, which, problem, found))
     return made
+
+
+def held_out_in_words(parts: Sequence[Fold]) -> str:
+    """Which motion `folds` holds out."""
+    if len(parts) > 1:
+        return "each run in turn"
+    return f"the {'first' if parts[0].which[0] == 0 else 'last'} two fifths of the motion"
+
+
+def _end(selected: SelectedCauses) -> tuple[int, ...]:
+    """The last two fifths of a single run; the first two, where what changes within the run changes in the last."""
+    ends = tuple(range(3, NOISE.blocks_of_time)), (0, 1)
+    placed = [selected.rows.layout.placed[number] for number in selected.best.candidates]
+    gates = [there(selected.rows.time, *gate_of(cause)) for cause in placed if cause.cause in CHANGES]
+    told = [min((_both(gate[~np.isin(selected.block, end)]) for gate in gates), default=1.0) for end in ends]
+    return ends[int(told[0] < CHANGE.known < told[1])]
+
+
+def _both(there: Array) -> float:
+    """Share of the rarer of there and not there."""
+    return float(min(np.mean(there), 1 - np.mean(there)))
 
 
 def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:

@@ -83,7 +83,7 @@ def _found(
 
 def title(placed: PlacedCause) -> str:
     """The name in words."""
-    where = f" in run {placed.runs[0]}" if placed.runs else ""
+    where = f" in run {placed.runs[0]}" if placed.runs and placed.runs[0] else ""
     if placed.cause.nameless:
         return f"an unknown torque at {placed.location} that follows the {placed.driver}"
     name = placed.cause.name.replace("_", " ")

@@ -24,7 +24,9 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, chosen
 from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
-from armscope.motion.library.laws import is_of_a_gain
+from armscope.motion.library.change_constants import CHANGE
+from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
+from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
@@ -93,7 +95,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
-        if below or (is_anywhere(placed) and _no_body(selected, number)):
+        if below or (is_anywhere(placed) and _no_body(selected, number)) or _no_load(selected, number):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
             yield number  # no link follows a motor that moves to and fro faster than it swings itself
@@ -131,6 +133,24 @@ def _no_body(selected: SelectedCauses, number: int) -> bool:
     if not stated and NAMING.determined * abs(mass) < INTERVAL * error:
         return True
     return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + stated))
+
+
+def _no_load(selected: SelectedCauses, number: int) -> bool:
+    """Whether what is picked up or put down is none: heavier than an arm, beyond its reach, or not determined.
+
+    What is put down was there: stated, or as a part of the last link.
+    """
+    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
+    if placed.cause is not LOAD_CHANGE:
+        return False
+    columns, links = layout.columns[number], layout.arm.inertial[::10]
+    (mass, *moments), kind = selected.coefficients[columns], getattr(placed.columns, "kind", "")
+    stated = placed.columns.numbers[0] if isinstance(placed.columns, Law) and kind == "load for a while" else 0.0
+    error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
+    if abs(mass) > CHANGE.heaviest_load * links.sum() or NAMING.determined * abs(mass) < INTERVAL * error:
+        return True
+    gone = mass < -(stated + links[-1]) - CONSISTENCY.below * error
+    return bool(gone or np.linalg.norm(moments) > layout.reach * abs(mass))
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
@@ -178,12 +198,18 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     best, gains = selected.best, held_out_gains(selected)
     agree = {number: agreement(selected, number).consistent for number in best.candidates}
     yield from (number for number in best.candidates if agree[number] is False)
-    useless = [n for n in best.candidates if gains[n] <= 0 and not (agree[n] and _of_masses(selected, n))]
+    spared = {n for n in best.candidates if (agree[n] and _of_masses(selected, n)) or _untold(selected, n, agree[n])}
+    useless = [n for n in best.candidates if gains[n] <= 0 and n not in spared]
     if not useless:
         return
     kept = tuple(effect for effect in best.chosen if effect.candidate not in useless)
     lost = float(np.median(_misfits(selected, best, kept) - _misfits(selected, best, best.chosen)))
     yield from useless if lost <= 0 else [min(useless, key=gains.__getitem__)]
+
+
+def _untold(selected: SelectedCauses, number: int, agree: bool | None) -> bool:
+    """Whether a cause is what changes within one run, and no two blocks tell it: other motion never has it."""
+    return agree is None and selected.rows.layout.placed[number].cause in CHANGES
 
 
 def _told_apart(selected: SelectedCauses) -> SelectedCauses:

@@ -1,0 +1,46 @@
+"""The selection once more, with what a scan found to change within a run among what competes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from armscope.core.types import Progress
+from armscope.motion.fitting.load_changes import load_changes
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.library.causes import Seen
+from armscope.motion.library.changes import place_changes
+from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.timing import Stretch
+
+
+def with_changes(
+    selected: SelectedCauses,
+    seen: Seen,
+    stretches: Sequence[Stretch],
+    how: Preparation,
+    stated: Mapping[str, float],
+    progress: Progress,
+) -> SelectedCauses:
+    """A selection in which loads that come and go compete, too, where a scan found any; else the same.
+
+    Args:
+        selected: without them.
+        seen: of the table.
+        stretches: even samples, ``effort`` in N m.
+        how: filters and decimation.
+        stated: payload of each run, kg.
+        progress: hears what is being done.
+
+    Returns:
+        The selection.
+    """
+    layout = selected.rows.layout
+    changes = load_changes(selected, how.cutoff)
+    placed = [cause for change in changes for cause in place_changes(seen, change, stated.get(change.run, 0.0))]
+    if not placed:
+        return selected
+    model = estimated_model(layout, selected.coefficients)
+    wider = replace(layout, placed=(*layout.placed, *placed))
+    return select_causes(wider, stretches, how, seen.runs, progress, model)
