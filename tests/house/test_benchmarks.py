@@ -1,8 +1,13 @@
 """Benchmarks are run by hand, so what they reach into must be there: a part of a diagnosis is timed inside it."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
+import pytest
 from benchmarks.diagnosis import measure, told
+from benchmarks.price_of_search import noncentrality, smallest_p_values
+from scipy.stats import norm
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "one-effect"
 
@@ -12,3 +17,21 @@ def test_the_atlas_is_timed_inside_the_diagnosis():
     (whole,), (atlas,) = found["cpu"], found["atlas"]
     assert 0 < atlas < whole
     assert "60 rows" in told("one-effect", found)
+
+
+def test_the_price_of_search_is_that_of_so_many_independent_tests():
+    """Twenty candidates of one column each, at right angles: the smallest of twenty uniform p-values."""
+    frames, candidates = np.arange(3), [SimpleNamespace(columns=np.array([3 + k])) for k in range(20)]
+    gram = np.eye(23)
+    gram[:3, 3:] = gram[3:, :3] = 0.1  # what the frames take of every column alike
+    gram[3:, 3:] += 3 * 0.1**2
+    problem = SimpleNamespace(
+        equations=SimpleNamespace(G=gram), space=SimpleNamespace(frames=frames, candidates=candidates)
+    )
+    rng = np.random.default_rng(2)
+    smallest = np.concatenate([smallest_p_values(problem, rng) for _ in range(10)])
+    expected = 1 - (1 - np.array([0.01, 0.05, 0.5])) ** (1 / 20)
+    assert np.quantile(smallest, [0.01, 0.05, 0.5]) == pytest.approx(expected, rel=0.15)  # 400 draws at the lowest
+    assert np.sqrt(noncentrality(expected[0], 1) / noncentrality(0.01, 1)) == pytest.approx(
+        (norm.isf(expected[0] / 2) + norm.isf(0.1)) / (norm.isf(0.005) + norm.isf(0.1)), rel=1e-3
+    )
