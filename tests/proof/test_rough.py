@@ -47,6 +47,22 @@ def test_the_largest_name_is_a_causes_or_of_something_as_large():
     assert only([CAUSE, ZERO], [FOUND, claim("joint_offset", "joint 4", rms=0.5)])["right"]
 
 
+def test_two_that_are_off_by_the_same_may_come_in_either_order():
+    """An offset stated on the next row is two rows' error, and which is listed as the cause is the world's choice."""
+    first, second = (concealed("link_geometry", f"link {n}", strength=s) for n, s in ((4, 1314.6), (5, 1314.2)))
+    said = [claim("link_geometry", "link 4", rms=20.0), claim("link_geometry", "link 5", rms=20.1)]
+    assert only([first, replace(second, minor=True)], said)["right"]
+    assert not only([first, replace(second, minor=True, strength=1200.0)], said)["right"]
+
+
+@pytest.mark.parametrize(("nats", "tellable"), [(19.9, False), (20.0, True), (float("nan"), True)])
+def test_a_cause_that_the_oracle_has_no_evidence_for_is_counted_apart(nats, tellable):
+    """Without a word of the truth on it, as in older ones, it counts as one that can be told."""
+    missed = only([replace(CAUSE, oracle_nats=nats), SMALL], [claim("gear_mesh", "joint 3", rms=0.04)])
+    assert missed["tellable"] == tellable
+    assert not missed["right"]
+
+
 def test_where_nothing_stands_out_no_name_may_claim_much():
     small = concealed("gear_mesh", "joint 3", minor=True, strength=1.0)
     assert only([small], [])["right"]

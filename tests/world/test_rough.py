@@ -8,13 +8,14 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from scipy.stats import multivariate_normal
 
 from armscope.core.averages import rms
 from armscope.world.constants import ROUGH
 from armscope.world.folder import build
 from armscope.world.imperfections import BEARING, DRIVE, OF, PAYLOAD_SHARE, PEDESTAL, RUNS, WANDER, lagging, waves
 from armscope.world.kinds import Concealed
-from armscope.world.oracle import oracle_rms
+from armscope.world.oracle import evidence_of_causes, oracle_of, oracle_rms
 from armscope.world.rough import BLEMISHES, as_stated, blemishes, draw_broken, rough_noise
 from armscope.world.spec import WorldSpec
 from armscope.world.strength import equilibrium
@@ -168,7 +169,7 @@ def test_an_oracle_pays_for_what_it_fits_and_more_where_waves_are_many():
     ratio = {}
     for name, arm in arms.items():
         measured = measure_session(arm)
-        ratio[name] = oracle_rms(arm, measured, columns=[]) / rms(measured.noise[arm.held_out])
+        ratio[name] = oracle_rms(oracle_of(arm, measured, []), []) / rms(measured.noise[arm.held_out])
     assert 0.99 < ratio["geometry"] < 1.1 < ratio["gears"] < 3
 
 
@@ -179,8 +180,8 @@ def test_an_oracle_foretells_no_wander_of_rows_whose_time_is_not_recorded():
     (wander,) = arm.chosen
     measured = measure_session(arm)
     noise = rms(measured.noise[arm.held_out])
-    assert oracle_rms(arm, measured, columns=["time_s"]) < 1.1 * noise
-    assert 0.7 * wander.rms < oracle_rms(arm, measured, columns=[]) < 1.5 * wander.rms
+    assert oracle_rms(oracle_of(arm, measured, ["time_s"]), ["time_s"]) < 1.1 * noise
+    assert 0.7 * wander.rms < oracle_rms(oracle_of(arm, measured, []), []) < 1.5 * wander.rms
 
 
 @pytest.fixture(scope="module")
@@ -223,3 +224,22 @@ def test_a_rough_world_tells_what_is_rough_and_shows_none_of_it(built):
     assert 0.03 < truth["scoring"]["left_mm"] < 1
     assert truth["rms_on_test_mm"]["true_model"] == pytest.approx(0.03, rel=0.4)
     assert len(test) == 100
+
+
+def test_the_oracles_evidence_is_the_log_bayes_factor_of_all_readings_written_out():
+    """By the density of all readings under the priors of all unknowns, one Gaussian, and not by normal equations."""
+    story = [{"kind": "joint_offset", "strength": 4.0}]
+    made = {"id": "o", "category": "rough", "arm": "six-axis", "seed": 8, "fresh": False, "rows": 60, "sigma_mm": 0.02}
+    arm = conceal(WorldSpec.model_validate({**made, "rough": ["geometry"], "effects": story}), ROBOTS)
+    oracle = oracle_of(arm, measure_session(arm), [])
+    readings = oracle.missing[oracle.seen]
+
+    def density(displaced):
+        unknown = np.concatenate([oracle.frames, *displaced], axis=1)[oracle.seen]
+        covariance = oracle.variance * np.eye(len(readings)) + unknown @ unknown.T
+        return multivariate_normal(cov=covariance).logpdf(readings)
+
+    ((cause, nats),) = evidence_of_causes(oracle).items()
+    without = [d for size, d in zip(oracle.known, oracle.displaced, strict=True) if id(size) != cause]
+    assert nats == pytest.approx(density(oracle.displaced) - density(without), rel=1e-6, abs=1e-3)
+    assert nats > 3

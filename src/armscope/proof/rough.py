@@ -9,6 +9,7 @@ from armscope.proof.definitions import (
     ABSURD_MM,
     ABSURD_RAD,
     ABSURD_TIMES,
+    AS_LARGE,
     LARGEST_SMALL,
     Name,
     place,
@@ -33,7 +34,8 @@ def rough_scores(
         wrong: claims that stand for nothing concealed.
 
     Returns:
-        causes, first (None without a cause), overclaimed, major_names, absurd, and right, all by the definitions.
+        causes, first (None without a cause), overclaimed, major_names, absurd, tellable, and right, all by the
+        definitions.
     """
     claims = distinct(answer.claims)
     found = {m.claim.name: m.truth for m in matches if m.right and m.claim}
@@ -46,6 +48,7 @@ def rough_scores(
         "first": first,
         "overclaimed": overclaimed,
         "major_names": sum(not claim.minor for claim in claims),
+        "tellable": all(cause.tellable for cause in story),
         "absurd": sum(_absurd(claim, found.get(claim.name)) for claim in claims),
         "right": not answer.failed and all_found and not wrong and (bool(first) if story else not overclaimed),
     }
@@ -59,7 +62,7 @@ def _largest_is_true(claims: Sequence[NamedEffect], found: dict[Name, Concealed]
         return False
     stands_for = found.get(max(ranked, key=lambda claim: claim.rms_mm).name)
     return stands_for is not None and (
-        not stands_for.minor or stands_for.strength >= max(cause.strength for cause in story)
+        not stands_for.minor or stands_for.strength >= AS_LARGE * max(cause.strength for cause in story)
     )
 
 

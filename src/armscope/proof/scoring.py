@@ -25,12 +25,12 @@ COLUMNS: dict[str, tuple[str, ...]] = {
         *_COMMON, "arm", "rows", "sigma_mm", "masses", "noise", "left_out", "shape", "concealed", "said", "answer",
         "mismatch", "silent", "exact", "exact_story", "missed", "wrong_names", "outside", "outside_right",
         "held_out_ratio", "price_of_fitting", "held_out_close", "to_oracle", "near_oracle", "noise_ratio", "failed",
-        "rough", "causes", "first", "overclaimed", "major_names", "absurd", "right",
+        "rough", "causes", "first", "overclaimed", "major_names", "absurd", "right", "tellable",
     ),
     "effects": (
         *_COMMON, "effect", "location", "shape", "driver", "minor", "strength", "noncentrality", "columns",
         "frame_numbers", "rows", "oracle_power", "size_in_thresholds", "seen", "outcome", "right", "ambiguous",
-        "among_all", "said_effect", "said_location", "said_driver", "driver_right",
+        "among_all", "said_effect", "said_location", "said_driver", "driver_right", "oracle_nats", "tellable",
     ),
     "names": (
         *_COMMON, "effect", "location", "minor", "named_as", "evidence_nats", "rms_mm", "right", "effect_right",
@@ -177,6 +177,8 @@ def _effect(world: World, found: Match, claims: Sequence[NamedEffect]) -> dict[s
         "seen": bool(world.answer.mismatch),
         "ambiguous": bool(truth.alternatives) or (world.truth.category == "inseparable" and not truth.minor),
         "driver_right": claim is not None and same_driver(truth, claim),
+        "oracle_nats": truth.oracle_nats,
+        "tellable": truth.tellable,
     }
 
 

@@ -14,7 +14,7 @@ import yaml
 
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError
-from armscope.proof.definitions import Name
+from armscope.proof.definitions import TELLABLE_NATS, Name
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,8 @@ class Concealed:
         noncentrality, columns, frame_numbers: of the oracle's test; NaN and 0 for the background.
         alternatives: names that are as good in these poses.
         shape: kind of an effect outside the library.
+        oracle_nats: of a rough arm's cause, how surely the oracle can say that it is there; NaN of others, and where a
+            column that it follows is not in the table.
     """
 
     effect: str
@@ -45,11 +47,17 @@ class Concealed:
     frame_numbers: int
     alternatives: tuple[Name, ...]
     shape: str = ""
+    oracle_nats: float = float("nan")
 
     @property
     def name(self) -> Name:
         """(effect, location)."""
         return self.effect, self.location
+
+    @property
+    def tellable(self) -> bool:
+        """Whether the oracle itself has evidence for it, so far as that is known."""
+        return not self.oracle_nats < TELLABLE_NATS
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,4 +178,5 @@ def concealed(content: dict[str, Any]) -> Concealed:
         frame_numbers=oracle["frame_numbers"],
         alternatives=tuple((a["effect"], a["location"]) for a in content.get("alternatives", ())),
         shape=content.get("shape", ""),
+        oracle_nats=content.get("oracle_nats", float("nan")),
     )

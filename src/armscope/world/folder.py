@@ -24,7 +24,7 @@ from armscope.core.files import write_table, write_yaml
 from armscope.world.effect_placement import visibilities
 from armscope.world.effects import linear_numbers
 from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD
-from armscope.world.oracle import oracle_rms
+from armscope.world.oracle import Oracle, evidence_of_causes, oracle_of, oracle_rms
 from armscope.world.rivals import D_H_VALUES, Visibility
 from armscope.world.rough import NOT_WRONG, as_stated
 from armscope.world.spec import WorldSpec
@@ -134,10 +134,12 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
     story = [size for size in chosen if not size.minor]
     seen = seen_in_runs(arm) if "run" in columns else arm.seen
     known = dict(zip(map(id, story), seen, strict=True)) | (_seen_beside(arm) if spec.rough else {})
+    oracle = oracle_of(arm, measured, columns) if spec.rough else None
+    nats = evidence_of_causes(oracle) if oracle is not None else {}
     ordered = sorted(chosen, key=lambda size: -size.rms)
     return {
         "sigma_mm": spec.sigma_mm,
-        "effects": [_effect(size, spec, known.get(id(size))) for size in ordered],
+        "effects": [_effect(size, spec, known.get(id(size)), nats.get(id(size))) for size in ordered],
         "frames": {
             "translation_mm": (frames.translation * 1e3).round(4),
             "rotation_rad": frames.rotation.round(7),
@@ -159,7 +161,7 @@ def _truth(arm: VirtualArm, measured: Measured, columns: list[str], left_out: li
             "masses": spec.masses,
             "columns_left_out": left_out,
             "mismatch": bool(chosen),
-            **(_roughness(arm, measured, columns) if spec.rough else {}),
+            **(_roughness(arm, measured, columns, oracle) if oracle is not None else {}),
         },
     }
 
@@ -171,7 +173,7 @@ def _seen_beside(arm: VirtualArm) -> dict[int, Visibility]:
     return dict(zip(map(id, large), visibilities(arm.judge, large, arm.chosen, sigma), strict=True))
 
 
-def _roughness(arm: VirtualArm, measured: Measured, columns: list[str]) -> dict[str, Any]:
+def _roughness(arm: VirtualArm, measured: Measured, columns: list[str], oracle: Oracle) -> dict[str, Any]:
     """What is rough, what naming it isn't wrong, what frames and D-H values leave, and what an oracle on test rows."""
     placed = arm.frames.place(arm.nominal, arm.scene.tool_turn)[arm.recorded]
     free = np.concatenate(
@@ -184,7 +186,7 @@ def _roughness(arm: VirtualArm, measured: Measured, columns: list[str]) -> dict[
         "rough": list(arm.spec.rough),
         "also_allowed": [list(NOT_WRONG[name]) for name in NOT_WRONG if name in arm.spec.rough],
         "left_mm": round(rms(left) * 1e3, 5),
-        "oracle_on_test_mm": round(oracle_rms(arm, measured, columns) * 1e3, 5),
+        "oracle_on_test_mm": round(oracle_rms(oracle, columns) * 1e3, 5),
     }
 
 
@@ -203,7 +205,7 @@ def _comparable(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> 
     return not (size.minor or twins or in_shares or leaning)
 
 
-def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict[str, Any]:
+def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None, nats: float | None) -> dict[str, Any]:
     kind = size.effect.kind
     content: dict[str, Any] = {
         "effect": kind.effect,
@@ -224,6 +226,8 @@ def _effect(size: Sized, spec: WorldSpec, visibility: Visibility | None) -> dict
         content |= {"shape": kind.variant, "what": kind.sentence}
     elif kind.variant:
         content["variant"] = kind.variant
+    if nats is not None:
+        content["oracle_nats"] = round(nats, 1)
     if visibility is not None:
         content["oracle"] = {
             "noncentrality": round(visibility.noncentrality, 2),
