@@ -10,15 +10,18 @@ import pytest
 from armscope.core.types import Array, unheard
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.load_cells import Cells, JointRows
-from armscope.motion.fitting.load_changes import likeliest
+from armscope.motion.fitting.load_changes import likeliest, load_changes
 from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.with_changes import with_changes
+from armscope.motion.library.changes import Change
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
 from tests.motion.moving import moved, robot
+
+NO_LOAD = Change("path 2", False, (6.0,), 0.01, np.array([1.0, 0.3, 0.0, 0.0]), 300)
 
 
 @pytest.mark.parametrize("price", [0.1, 0.7, 3.0])
@@ -74,7 +77,11 @@ def test_a_spell_more_explains_what_plain_least_squares_say() -> None:
     assert more < 3
 
 
-def test_a_table_in_which_nothing_changes_is_not_weighed_once_more() -> None:
+@pytest.mark.parametrize("found", [(), (NO_LOAD,)])
+def test_a_selection_stays_as_it_is_where_no_change_gets_a_name(
+    found: tuple[Change, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another round from another start may end elsewhere: only a change that has a name is reason for that."""
     arm = robot()
     motions = moved(arm, 2, noise=0.005)
     laid = list(stretches(motions))
@@ -82,4 +89,6 @@ def test_a_table_in_which_nothing_changes_is_not_weighed_once_more() -> None:
     layout = TorqueLayout(arm, tuple(place_causes(seen)), False)
     how = preparation(200.0, 10.0, "as asked")
     selected = select_causes(layout, laid, how, seen.runs, unheard)
+    assert load_changes(selected, how.cutoff) == []
+    monkeypatch.setattr("armscope.motion.fitting.with_changes.load_changes", lambda *_: list(found))
     assert with_changes(selected, seen, laid, how, {}, unheard) is selected

@@ -11,6 +11,7 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import estimated_model, select_causes
 from armscope.motion.library.causes import Seen
 from armscope.motion.library.changes import place_changes
+from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
 
@@ -23,7 +24,7 @@ def with_changes(
     stated: Mapping[str, float],
     progress: Progress,
 ) -> SelectedCauses:
-    """A selection in which loads that come and go compete, too, where a scan found any; else the same.
+    """A selection in which loads that come and go compete, too, where a scan found any; the same where none has a name.
 
     Args:
         selected: without them.
@@ -43,4 +44,6 @@ def with_changes(
         return selected
     model = estimated_model(layout, selected.coefficients)
     wider = replace(layout, placed=(*layout.placed, *placed))
-    return select_causes(wider, stretches, how, seen.runs, progress, model)
+    wider_selected = select_causes(wider, stretches, how, seen.runs, progress, model)
+    chosen = {wider_selected.rows.layout.placed[number].cause for number in wider_selected.best.candidates}
+    return wider_selected if chosen & set(CHANGES) else selected
