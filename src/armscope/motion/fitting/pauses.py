@@ -46,11 +46,11 @@ class Pauses:
             found[which] -= span @ (span.T @ values[which])
         return found
 
-    def holding(self, rows: int) -> NDArray[np.bool_]:
-        """(rows,) those that the forces of pauses take for the most."""
+    def holding(self, rows: int, share: float = 0.5) -> NDArray[np.bool_]:
+        """(rows,) those of which the forces of pauses take more than a share, the most where none is given."""
         found = np.zeros(rows, dtype=np.bool_)
         for which, span in self.held:
-            found[which] = np.sum(span**2, axis=1) > 0.5
+            found[which] = np.sum(span**2, axis=1) > share
         return found
 
 

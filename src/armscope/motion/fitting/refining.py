@@ -8,6 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY, NOISE
+from armscope.motion.fitting.linkages import remounted
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
 from armscope.motion.library import catalogue
@@ -17,6 +18,7 @@ from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.for_a_while import OF_A_LOAD
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
@@ -32,6 +34,8 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
             exact, rests = _exact(selected, number)
             placed[number], moved = exact, moved or not rests
+            continue
+        if cause.variant == BETWEEN_LINKS:
             continue
         if cause.cause is LOAD_CHANGE:
             placed[number], rests = _as_carried(selected, number)
@@ -62,9 +66,14 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
         moved = moved or not rests
-    for number in set(range(len(placed))) - selected.best.candidates:
-        if is_anywhere(placed[number]):  # not chosen, it competes with what is chosen in its place
+    for number in range(len(placed)):
+        if (
+            is_anywhere(placed[number]) and number not in selected.best.candidates
+        ):  # not chosen, it competes with what is chosen in its place
             placed[number] = as_a_body(placed[number], layout.arm, *carried_in(selected, placed[number]))
+        if placed[number].variant == BETWEEN_LINKS:
+            placed[number], rests = remounted(selected, number)
+            moved = moved or not rests
     return replace(layout, placed=tuple(placed)) if moved else None
 
 

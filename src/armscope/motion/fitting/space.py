@@ -15,6 +15,7 @@ from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.linkage import BETWEEN_LINKS
 
 
 def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozenset[int] = frozenset()) -> ModelSpace:
@@ -105,9 +106,13 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
 
 
 def _contains(one: PlacedCause, other: PlacedCause) -> bool:
-    """Whether a nameless cause holds one that has a name and clashes with it."""
+    """Whether a curve or a nameless cause holds one that has a name and clashes with it.
+
+    How a spring between links is mounted was scanned until it suits: it stands for most of a cable as a curve does, and
+    only evidence tells them apart.
+    """
     if one.is_curve:
-        return not other.is_curve
+        return not other.is_curve and other.variant != BETWEEN_LINKS
     return one.cause is catalogue.CURVE and OWNED.get(one.driver) is other.cause
 
 

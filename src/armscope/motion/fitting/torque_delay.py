@@ -40,7 +40,7 @@ def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
     among = np.flatnonzero((selected.weights.row[:, joint] > 0) & _between_reversals(rows, joint))
     unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
     root = np.sqrt(unit * selected.weights.row[among, joint])[:, None]
-    X = root * _columns(selected, joint, best.columns)[among] / scale[best.columns]
+    X = root * columns_of(selected, joint, best.columns)[among] / scale[best.columns]
     slope, left = root[:, 0] * _slope(selected, joint)[among], root[:, 0] * selected.residuals[among, joint]
     step, information = _apart(X, 1 / best.variance, slope, left)
     turning, unsure = _turning(selected, joint)
@@ -131,8 +131,17 @@ def _slope(selected: SelectedCauses, joint: int) -> Array:
     return found
 
 
-def _columns(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
-    """(K, C) some columns of a joint, zero where it has none of them; combinations of masses among them."""
+def columns_of(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
+    """Some columns of a joint, zero where it has none of them; combinations of masses among them.
+
+    Args:
+        selected: a selection.
+        joint: from 0.
+        columns: (C,) their numbers.
+
+    Returns:
+        (K, C).
+    """
     rows = selected.rows
     made, shares = rows.layout.made_of_masses
     own, at = rows.columns[joint] * rows.gain_of_columns(joint), rows.at[joint]

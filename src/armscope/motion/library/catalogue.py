@@ -145,9 +145,11 @@ DELAY = Cause(
 BALANCER = Cause(
     "gravity_balance",
     SPRINGS,
-    "A spring or a counterweight pulls the joint toward one position.",
+    "A spring, a gas spring or a counterweight pulls the joint toward one position, or away from it.",
     "Hold the joint still at several positions and compare its torque with gravity's.",
     "Add the spring's or counterweight's torque to the model.",
+    labels={"force_lever": "force × shorter lever", "growth": "growth of it over the longer lever"}
+    | {"phase": "between both ends at zero", "ratio": "shorter / longer lever"},
     clause=clauses.balance_clause,
     remedy=remedies_of_laws.spring,
 )

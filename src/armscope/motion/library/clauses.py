@@ -130,6 +130,8 @@ def compliance_clause(cause: FoundCause, numbers: Numbers) -> str:
 def balance_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A spring or a counterweight, as far as its stiffness is known."""
     stiffness = numbers.get("stiffness")
+    if "force_lever" in numbers:
+        return f"a gas spring or balancer between two links acts on {cause.location} ({rms_of(cause)})"
     if stiffness is None:
         return f"a counterweight or spring acts on {cause.location} ({rms_of(cause)})"
     if _open(stiffness):

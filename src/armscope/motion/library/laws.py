@@ -16,6 +16,7 @@ from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
+from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.sides import side
 from armscope.motion.samples.preparation import Signals, without_lag
 
@@ -283,6 +284,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "clinging over smooth torques": _clinging_over_torques,
     "behind a drive": _behind,
     "spring": _spring,
+    "spring between links": spring_between_links,
     "wave": _wave,
     "uneven friction": _uneven_side,
     "rubbing of two": _rubbing,

@@ -14,6 +14,8 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
 from armscope.motion.library.laws import Law
+from armscope.motion.library.linkage import BETWEEN_LINKS
+from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.sides import coulomb_width, sharp_width
 
@@ -176,12 +178,23 @@ def _springs(at: _Joint) -> Iterator[PlacedCause]:
     if not at.seen.arm.sliding[at.number]:
         waves = (("sine", at.torque), ("cosine", at.torque))
         yield at.cause(catalogue.BALANCER, driver, waves, "wave", 1, variant="counterweight")
+        yield _between_links(at)
         found, tried = at.seen.waves.get(at.number, ((), 1))
         for n in found:
             more: dict[str, Any] = {"variant": str(n), "scanned": (("per_turn", "", float(n)),)}
             yield at.cause(catalogue.RIPPLE, driver, waves, "wave", n, multiplicity=tried, **more)
     for knots in (LIBRARY.knots_of_position, LIBRARY.knots_of_bend):
         yield at.curve(catalogue.CABLE, driver, q, knots, variant=str(knots), multiplicity=2)
+
+
+def _between_links(at: _Joint) -> PlacedCause:
+    """A gas spring, or another between two links; how it is mounted is scanned once something follows the angle."""
+    middle = float(np.mean(at.seen.q[at.number]))
+    phase, ratio = np.pi / 2 - middle, LINKAGE.ratios[len(LINKAGE.ratios) // 2]
+    names = (("force_lever", at.torque), ("growth", at.torque))
+    scanned = (("phase", "rad", phase), ("ratio", "", ratio))
+    how: dict[str, Any] = {"variant": BETWEEN_LINKS, "scanned": scanned, "multiplicity": LINKAGE.tried}
+    return at.cause(catalogue.BALANCER, "joint angle", names, "spring between links", phase, ratio, middle, **how)
 
 
 def _outside(at: _Joint) -> Iterator[PlacedCause]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from armscope.motion.library.clauses import amount
+from armscope.motion.library.linkage import length
 from armscope.motion.library.remedies import Fitted
 from armscope.verdict.effects import INTERVAL, Parameter
 
@@ -73,6 +74,8 @@ def _acting(fitted: Fitted, law: str) -> str:
 
 def spring(fitted: Fitted) -> str:
     """A spring, by the middle of the joint's range, or a counterweight."""
+    if "force_lever" in fitted.numbers:
+        return _between_links(fitted)
     if "stiffness" not in fitted.numbers:
         return waves(fitted)
     stiffness, torque = fitted.parameters
@@ -80,6 +83,19 @@ def spring(fitted: Fitted) -> str:
     unit = stiffness.unit.rpartition("/")[2]
     away = f"(position {'+' if middle < 0 else '−'} {abs(middle):.4g} {unit})"
     return f"{fitted.in_general}: {amount(stiffness, sign=True)} × {away} {amount(torque, sign=True)}."
+
+
+def _between_links(fitted: Fitted) -> str:
+    """A spring between a point of one link and a point of the next, by the angle between these."""
+    phase, ratio, middle = fitted.of_law
+    force, growth = fitted.parameters[:2]
+    half = float(length(middle + phase, ratio))
+    size = f"({amount(force, sign=True)} {amount(growth, sign=True)} × (l − {half:.4g}))"
+    return (
+        f"{fitted.in_general}: {size} × sin(x) / l, "
+        f"where x is position {'−' if phase < 0 else '+'} {abs(phase):.4g} rad, and l = "
+        f"√({1 + ratio**2:.4g} − {2 * ratio:.4g} cos x)."
+    )
 
 
 def waves(fitted: Fitted) -> str:

@@ -1,0 +1,122 @@
+"""How a spring between two links is mounted: what suits a joint best beside all else, as free as that is.
+
+A curve of the joint's angle stands for a spring until one is tried that is mounted as the true one is; so wherever such
+a curve, or a spring, has a name, its mount is looked for from coarse to fine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.inference.linear_algebra import lower_cholesky, solve_lower
+from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.torque_delay import columns_of
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.laws import Law
+from armscope.motion.library.linkage import pull
+from armscope.motion.library.linkage_constants import LINKAGE
+
+Mount = tuple[float, float]
+"""Phase, rad, and ratio, as `spring_between_links` takes them."""
+
+
+def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
+    """A spring between links where it suits best, and whether the one that there is suits as well.
+
+    Args:
+        selected: the selection.
+        number: of the spring among the placed causes, whether it is chosen or not.
+
+    Returns:
+        The spring as it is and true where nothing that follows the joint's angle is chosen there.
+    """
+    layout = selected.rows.layout
+    placed = layout.placed[number]
+    rivals = [n for n in selected.best.candidates if _follows_angle(layout.placed[n], placed.joints)]
+    if not rivals or not isinstance(placed.columns, Law):
+        return placed, True
+    judged, (phase, ratio, middle) = _Judged(selected, placed.joints[0], rivals), placed.columns.numbers
+    if len(judged.left) < LINKAGE.least_rows:
+        return placed, True
+    (so_far,) = judged.nats([(phase, ratio)], middle)
+    best, nats = max((_finest(judged, start, middle) for start in _starts(judged, middle)), key=lambda found: found[1])
+    if nats < so_far + NOISE.settled:
+        return placed, True
+    law = replace(placed.columns, numbers=(*best, middle))
+    return replace(placed, columns=law, scanned=(("phase", "rad", best[0]), ("ratio", "", best[1]))), False
+
+
+def _starts(judged: _Judged, middle: float) -> list[Mount]:
+    """The best of a coarse scan in each sector of the turn: what suits nearly as well may lie far from what suits."""
+    step = 2 * np.pi / LINKAGE.phases
+    tried = [(number * step - np.pi, ratio) for number in range(LINKAGE.phases) for ratio in LINKAGE.ratios]
+    found = judged.nats(tried, middle).reshape(LINKAGE.sectors, -1)
+    order = np.argsort(-found.max(axis=1))[: LINKAGE.starts]
+    return [tried[int(sector * found.shape[1] + np.argmax(found[sector]))] for sector in order]
+
+
+def _finest(judged: _Judged, start: Mount, middle: float) -> tuple[Mount, float]:
+    """The best about a start, from coarse to fine, and by how many nats it betters what is left."""
+    best, nats, step = start, -np.inf, 1.0
+    for _ in range(LINKAGE.levels):
+        by = step * np.linspace(-1, 1, 2 * LINKAGE.finer + 1)
+        near = [
+            (best[0] + one * 2 * np.pi / LINKAGE.phases, _possible(best[1] + other * LINKAGE.between))
+            for one in by
+            for other in by
+        ]
+        found = judged.nats(near, middle)
+        best, nats = near[int(np.argmax(found))], float(found.max())
+        step /= LINKAGE.finer
+    return best, nats
+
+
+def _follows_angle(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
+    """Whether a cause is a spring or a cable of one joint."""
+    return placed.joints == joints and placed.cause in (catalogue.BALANCER, catalogue.CABLE)
+
+
+def _possible(ratio: float) -> float:
+    return float(np.clip(ratio, LINKAGE.least_ratio, LINKAGE.largest_ratio))
+
+
+class _Judged:
+    """One joint's torque without what follows its angle, beside everything else that is chosen: in some rows."""
+
+    def __init__(self, selected: SelectedCauses, joint: int, without: Sequence[int]) -> None:
+        rows, best, scale = selected.rows, selected.best, selected.problem.scale
+        left_out = np.concatenate([rows.layout.columns[number] for number in without])
+        others = np.setdiff1d(best.columns, left_out)
+        sums, variance = selected.problem.equations, best.variance[best.at(others)]
+        information = sums.G[np.ix_(others, others)] / best.noise**2 + np.diag(1 / variance)
+        fitted = np.linalg.solve(information, sums.b[others] / best.noise**2)
+        held = rows.pauses[joint].holding(len(rows), LINKAGE.held)
+        among = np.flatnonzero((selected.weights.row[:, joint] > 0) & ~held)
+        every = -(-len(among) // LINKAGE.rows)
+        among = among[::every]
+        unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
+        self.root = np.sqrt(every * unit * selected.weights.row[among, joint])
+        columns = columns_of(selected, joint, others)[among] / scale[others]
+        beyond = (rows.torque[:, joint] - rows.nominal[:, joint])[among]
+        self.left = self.root * (beyond - columns @ fitted)
+        factor = lower_cholesky(information, np.zeros(len(others)))
+        self.absorbed, self.angle = solve_lower(factor, (self.root[:, None] * columns).T), rows.q[among, joint]
+        self.prior = LINKAGE.usual_torque**-2 / max(float(np.mean(rows.torque[among, joint] ** 2)), 1e-300)
+
+    def nats(self, mounts: Sequence[Mount], middle: float) -> Array:
+        """(T,) by which a spring of each mount betters what is left, all else fitted anew."""
+        turned = self.angle[:, None] + [phase for phase, _ in mounts]
+        lever = self.root[:, None, None] * pull(turned, *np.transpose([(r, middle + p) for p, r in mounts]))
+        absorbed = np.tensordot(self.absorbed, lever, axes=1)
+        S = np.einsum("ntk,ntl->tkl", lever, lever) - np.einsum("ctk,ctl->tkl", absorbed, absorbed)
+        v = np.einsum("ntk,n->tk", lever, self.left)
+        return (
+            np.asarray(np.einsum("tk,tk->t", v, np.linalg.solve(S + self.prior * np.eye(2), v[:, :, None])[:, :, 0]))
+            / 2
+        )

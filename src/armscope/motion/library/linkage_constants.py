@@ -1,0 +1,41 @@
+"""Numbers by which springs between links are looked for; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class LinkageRules(Constants):
+    """Where a spring is mounted."""
+
+    phases: int = constant(72, "between its ends that are tried", "judgement: steps of 5 degrees", unit="angles")
+    ratios: tuple[float, ...] = constant(
+        (0.1, 0.18, 0.26, 0.34, 0.42, 0.5, 0.58, 0.66, 0.74, 0.82, 0.9, 0.96),
+        "of its ends' distances from the axis that are tried",
+        "judgement: below these it is a sine, above them its ends all but meet",
+    )
+    least_rows: int = constant(20, "that must tell its curve", "judgement: fewer fit anything", unit="rows")
+    held: float = constant(0.02, "of a row that forces of a pause may take", "judgement: next to nothing")
+    sectors: int = constant(12, "of the turn, in each of which the best is looked at", "judgement: 30 degrees")
+    starts: int = constant(6, "of these, from which finer ones are tried", "judgement: time")
+    between: float = constant(0.08, "two ratios that are tried", "derived: the first scan's step")
+    finer: int = constant(5, "steps either way about the best, of a scan that is as much finer", "judgement: time")
+    rows: int = constant(2000, "at which mounts are tried, at most", "judgement: time; curves of the angle need few")
+    levels: int = constant(2, "of finer scans", "judgement: then half a degree is known")
+    usual_torque: float = constant(
+        3.0, "of the joint's torque, that a spring's may be", "judgement: wide; springs hold what gravity asks for"
+    )
+    largest_ratio: float = constant(0.98, "at most", "judgement: mounts are not at one radius to a hair")
+    least_ratio: float = constant(0.03, "at least", "judgement: below it is a sine")
+    shortest: float = constant(0.02, "that a spring is, to its longer distance", "judgement: no spring has no length")
+
+    @property
+    def tried(self) -> int:
+        """Mounts that compete."""
+        return self.phases * len(self.ratios)
+
+
+LINKAGE = LinkageRules()

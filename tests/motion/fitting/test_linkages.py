@@ -1,0 +1,63 @@
+"""A gas spring between two links is a balancer, mounted as it is; a cable that no spring makes stays a cable."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks.motion_own_arms import MIDDLE
+from benchmarks.motion_springs import SPRINGS, World, said
+
+from armscope.motion.fitting.linkages import remounted
+from armscope.motion.library import catalogue
+from armscope.motion.library.linkage import BETWEEN_LINKS
+from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
+from armscope.recordings.motions import as_motions
+from armscope.robot.description import RobotDescription
+from armscope.robot.dynamics import build_moving_arm
+from tests.seeds import seeds
+
+
+def diagnosed(world: World) -> MotionDiagnosis:
+    arm = build_moving_arm(RobotDescription.model_validate(world.arm.robot(stated=world.seed % 2 == 0)))
+    return diagnose_motion(arm, as_motions(world.recorded(), "motions.csv", world.n))
+
+
+@pytest.mark.parametrize("kind", ["even", "near", "over"])
+@pytest.mark.parametrize("seed", seeds(2, 1, 3))
+def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> None:
+    world, spring = World(kind, 3 + seed % 4, seed), SPRINGS[kind]
+    found = diagnosed(world)
+    right, words = said(world, found.verdict)
+    assert right, words
+    numbers = {each.name: each.value for each in found.verdict.effects[0].parameters}
+    if kind == "even":  # a curve without a bend: where its ends are is hardly told
+        return
+    assert "gas spring or balancer between two links" in found.verdict.headline
+    ratio = min(spring.before, spring.behind) / max(spring.before, spring.behind)
+    assert numbers["ratio"] == pytest.approx(ratio, abs=0.05)
+    apart = numbers["phase"] - (spring.between - MIDDLE[world.joint])
+    assert np.sin(apart) == pytest.approx(0, abs=0.05)
+    assert np.cos(apart) > 0
+
+
+@pytest.mark.parametrize("kind", ["taut", "harness", "end"])
+@pytest.mark.parametrize("seed", seeds(1, 2))
+def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
+    world = World(kind, 3 + seed % 4, seed)
+    right, words = said(world, diagnosed(world).verdict)
+    assert right, words
+
+
+def test_where_nothing_follows_the_angle_no_mount_is_looked_for() -> None:
+    found = diagnosed(World("taut", 4, 1))
+    layout = found.selected.rows.layout
+    springs = [n for n, cause in enumerate(layout.placed) if cause.variant == BETWEEN_LINKS]
+    cables = {
+        layout.placed[n].joints for n in found.selected.best.candidates if layout.placed[n].cause is catalogue.CABLE
+    }
+    assert cables == {(2,)}
+    for number in springs:
+        placed, rests = remounted(found.selected, number)
+        if placed.joints not in cables:
+            assert placed is layout.placed[number]
+            assert rests
