@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.motion.library.linkage import length, pull
+from armscope.motion.library.linkage import length, pull, pushes_one_way
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.remedies import Fitted
 from armscope.motion.library.remedies_of_laws import spring
@@ -36,3 +36,11 @@ def test_its_cure_is_the_formula_with_its_numbers() -> None:
 def test_no_spring_is_shorter_than_one_can_be() -> None:
     assert float(length(0.0, 1.0)) == LINKAGE.shortest
     assert np.all(np.isfinite(pull(np.zeros(3), 1.0, 0.0)))
+
+
+@pytest.mark.parametrize(("growth", "sound"), [(0.5, True), (-0.5, True), (9.0, False), (-9.0, False)])
+def test_a_force_that_changes_its_sign_is_no_springs(growth: float, sound: bool) -> None:
+    middle = float(np.mean(ANGLE))
+    force = 1.0 + growth * (length(ANGLE, 0.6) - length(middle, 0.6))
+    assert bool(np.all(force > 0)) == sound
+    assert bool(pushes_one_way(np.array([1.0, growth]), ANGLE, 0.6, middle)) == sound

@@ -19,7 +19,7 @@ from armscope.motion.fitting.torque_delay import columns_of
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
-from armscope.motion.library.linkage import pull
+from armscope.motion.library.linkage import pull, pushes_one_way
 from armscope.motion.library.linkage_constants import LINKAGE
 
 Mount = tuple[float, float]
@@ -46,7 +46,8 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
         return placed, True
     (so_far,) = judged.nats([(phase, ratio)], middle)
     best, nats = max((_finest(judged, start, middle) for start in _starts(judged, middle)), key=lambda found: found[1])
-    if nats < so_far + NOISE.settled:
+    rests = NOISE.settled if number in selected.best.candidates else LINKAGE.much * nats
+    if nats < so_far + rests:
         return placed, True
     law = replace(placed.columns, numbers=(*best, middle))
     return replace(placed, columns=law, scanned=(("phase", "rad", best[0]), ("ratio", "", best[1]))), False
@@ -110,13 +111,18 @@ class _Judged:
         self.prior = LINKAGE.usual_torque**-2 / max(float(np.mean(rows.torque[among, joint] ** 2)), 1e-300)
 
     def nats(self, mounts: Sequence[Mount], middle: float) -> Array:
-        """(T,) by which a spring of each mount betters what is left, all else fitted anew."""
-        turned = self.angle[:, None] + [phase for phase, _ in mounts]
-        lever = self.root[:, None, None] * pull(turned, *np.transpose([(r, middle + p) for p, r in mounts]))
+        """(T,) by which a spring of each mount betters what is left, all else fitted anew.
+
+        Of one whose force would have to change its sign within the joint's range, by a constant force.
+        """
+        phase, ratio = np.transpose(mounts)
+        turned = self.angle[:, None] + phase
+        lever = self.root[:, None, None] * pull(turned, ratio, middle + phase)
         absorbed = np.tensordot(self.absorbed, lever, axes=1)
         S = np.einsum("ntk,ntl->tkl", lever, lever) - np.einsum("ctk,ctl->tkl", absorbed, absorbed)
+        S = S + self.prior * np.eye(2)
         v = np.einsum("ntk,n->tk", lever, self.left)
-        return (
-            np.asarray(np.einsum("tk,tk->t", v, np.linalg.solve(S + self.prior * np.eye(2), v[:, :, None])[:, :, 0]))
-            / 2
-        )
+        fitted = np.linalg.solve(S, v[:, :, None])[:, :, 0]
+        constant = v[:, 0] ** 2 / S[:, 0, 0]
+        sound = pushes_one_way(fitted, turned, ratio, middle + phase)
+        return np.asarray(np.where(sound, np.sum(v * fitted, axis=1), constant) / 2)

@@ -8,6 +8,7 @@ virtual work).
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
@@ -36,6 +37,22 @@ def pull(angle: Array, ratio: float | Array, middle: float | Array) -> Array:
 def length(angle: float | Array, ratio: float | Array) -> Array:
     """(...) of the spring, to the longer distance."""
     return np.asarray(np.sqrt(np.maximum(1 + np.square(ratio) - 2 * ratio * np.cos(angle), LINKAGE.shortest**2)))
+
+
+def pushes_one_way(numbers: Array, angle: Array, ratio: float | Array, middle: float | Array) -> NDArray[np.bool_]:
+    """Whether a spring's force keeps its sign, as that of every gas spring and pre-tensioned spring does.
+
+    Args:
+        numbers: (..., 2) as `pull` takes them.
+        angle: (N, ...) rad between its ends' directions.
+        ratio: as `pull` takes it.
+        middle: as `pull` takes it.
+
+    Returns:
+        (...).
+    """
+    stroke = np.max(np.abs(length(angle, ratio) - length(middle, ratio)), axis=0)
+    return np.asarray(np.abs(numbers[..., 1]) * stroke < np.abs(numbers[..., 0]))
 
 
 def spring_between_links(m: Moment, joints: tuple[int, ...], phase: float, ratio: float, middle: float) -> Array:

@@ -17,6 +17,16 @@ class LinkageRules(Constants):
         "of its ends' distances from the axis that are tried",
         "judgement: below these it is a sine, above them its ends all but meet",
     )
+    much: float = constant(
+        0.01,
+        "of what a spring explains that has no name, below which it stays where it is",
+        "judgement: each move is a round more of the selection",
+    )
+    growth: float = constant(
+        0.3,
+        "of its force by which that may change along its stroke, RMS",
+        "convention: gas springs' force rises by 10 to 60 % over their stroke (catalogues' progression)",
+    )
     least_rows: int = constant(20, "that must tell its curve", "judgement: fewer fit anything", unit="rows")
     held: float = constant(0.02, "of a row that forces of a pause may take", "judgement: next to nothing")
     sectors: int = constant(12, "of the turn, in each of which the best is looked at", "judgement: 30 degrees")

@@ -194,6 +194,7 @@ def _between_links(at: _Joint) -> PlacedCause:
     names = (("force_lever", at.torque), ("growth", at.torque))
     scanned = (("phase", "rad", phase), ("ratio", "", ratio))
     how: dict[str, Any] = {"variant": BETWEEN_LINKS, "scanned": scanned, "multiplicity": LINKAGE.tried}
+    how["expected"] = (1.0, LINKAGE.growth)
     return at.cause(catalogue.BALANCER, "joint angle", names, "spring between links", phase, ratio, middle, **how)
 
 

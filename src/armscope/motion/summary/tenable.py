@@ -28,6 +28,7 @@ from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.motion.library.layout import OWN
+from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.unnamed_masses import odds_of_name
@@ -95,7 +96,8 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
-        if below or (is_anywhere(placed) and _no_body(selected, number)) or _no_load(selected, number):
+        nothing = _no_load(selected, number) or _pulls_and_pushes(selected, number)
+        if below or nothing or (is_anywhere(placed) and _no_body(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
             yield number  # no link follows a motor that moves to and fro faster than it swings itself
@@ -151,6 +153,16 @@ def _no_load(selected: SelectedCauses, number: int) -> bool:
         return True
     gone = mass < -(stated + links[-1]) - CONSISTENCY.below * error
     return bool(gone or np.linalg.norm(moments) > layout.reach * abs(mass))
+
+
+def _pulls_and_pushes(selected: SelectedCauses, number: int) -> bool:
+    """Whether a spring between links is none: its force would have to change its sign."""
+    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
+    if placed.variant != BETWEEN_LINKS or not isinstance(placed.columns, Law):
+        return False
+    phase, ratio, middle = placed.columns.numbers
+    angle = selected.rows.q[:, placed.joints[0]] + phase
+    return not pushes_one_way(selected.coefficients[layout.columns[number]], angle, ratio, middle + phase)
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
