@@ -5,7 +5,9 @@ import gc
 import os
 import signal
 import sys
+from collections.abc import Iterator
 
+import pytest
 import typer.testing
 
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -28,3 +30,11 @@ def pytest_collection_finish() -> None:
     """Four thousand tests and all modules stay to the end: looking for garbage among them finds none."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(autouse=True)
+def closed_figures() -> Iterator[None]:
+    """A test that draws leaves no figure open for the next ones."""
+    yield
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+        pyplot.close("all")

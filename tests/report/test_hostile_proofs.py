@@ -4,7 +4,6 @@ import re
 from base64 import b64decode
 from dataclasses import replace
 
-import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 from typer.testing import CliRunner
@@ -75,7 +74,6 @@ def compared(tmp_path):
     moved.to_csv(files[1], index=False)
     line = ["compare", *files, "-r", EXAMPLE / "robot.yaml", "-o", tmp_path / "out"]
     done = CliRunner().invoke(app, [str(each) for each in line])
-    plt.close("all")
     assert done.exit_code == 0, done.exception
     return tmp_path / "out"
 
