@@ -217,11 +217,6 @@ class NamingRules(Constants):
         "convention: one in eighty of a family's values is farther out; that gears are measured at the tool, too, was "
         "decided with a bench case in view",
     )
-    alike: float = constant(
-        0.7,
-        "correlation a posteriori from which two values of what gives way stand in for each other",
-        "judgement: half of the variance of one is then the other's",
-    )
     minor_share: float = constant(
         0.025,
         "of the residual variance, below which an effect is apart from the story, in an arm with small "

@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.core.types import Indices
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes
 from armscope.diagnosis.model_space import EffectSpace
@@ -20,14 +19,11 @@ from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.problem import Problem, SelectedEffect
-from armscope.physics.elastic import BASE_COMPLIANCE, BEARING_COMPLIANCE, LINK_BENDING
 from armscope.physics.soft_start import SOFT_START
 
 GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
 """A joint's drive in an elastic background is named at odds of 20 to 1, if it is worth this share of the RMS at all: of
 what gives way, drives do first and most."""
-GIVING_WAY = tuple(effect.name for effect in (BASE_COMPLIANCE, LINK_BENDING, BEARING_COMPLIANCE))
-"""What gives way besides drives, and can look alike: base, first bearing and first link tilt the same arm."""
 
 
 def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
@@ -80,7 +76,6 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     worth = {n: beside if problem.is_free(n) else left for n in unnamed if n not in drives}
     added = _standing_out(problem, hypothesis, worth)
-    added += [n for n in _standing_out_together(problem, hypothesis, worth) if n not in added]
     if drives:
         free = _with_names(problem, hypothesis, drives, [problem.mismatch] * len(drives))
         added += [d for d in drives if _size(problem, free, d) > GIVES * left and _lost(problem, free, d) > GIVES_NATS]
@@ -122,56 +117,6 @@ def _standing_out(problem: Problem, hypothesis: Hypothesis, left: Mapping[int, f
             return sorted(found)
         found.append(farthest)
         named |= set(problem.space.candidates[farthest].columns)
-
-
-def _standing_out_together(problem: Problem, hypothesis: Hypothesis, left: Mapping[int, float]) -> list[int]:
-    """Of what gives way and looks alike in these poses, the likeliest, where together it stands out.
-
-    A background shares among all what one of them did, and each then looks usual. So each is weighed with the others
-    held right, against as many usual values as it then stands for.
-    """
-    named = {column for c in hypothesis.chosen for column in problem.space.candidates[c.candidate].columns}
-    found: dict[frozenset[int], list[int]] = {}
-    for number in left:
-        others = _alike(problem, hypothesis, number, left)
-        if not others:
-            continue
-        columns = np.concatenate([problem.space.candidates[other].columns for other in others])
-        alone = evaluate(problem.holding(columns), hypothesis.chosen, hypothesis.background, hypothesis.noise)
-        times = _beyond_family(problem, alone, number, named | set(columns.tolist())) / (1 + len(others))
-        if (
-            _size(problem, alone, number) > NAMING.stands_out * left[number]
-            and _lost(problem, alone, number) > NAMING.stands_out_nats
-            and times > NAMING.beyond_family
-        ):
-            found.setdefault(frozenset((number, *others)), []).append(number)
-
-    def likely(number: int) -> float:
-        return _with_names(problem, hypothesis, [number], [left[number]]).log_posterior
-
-    return sorted({max(numbers, key=likely) for numbers in found.values()})
-
-
-def _alike(problem: Problem, hypothesis: Hypothesis, number: int, among: Collection[int]) -> list[int]:
-    """What else gives way and can't be told from a candidate by the rows: their values are correlated a posteriori."""
-    own = problem.space.candidates[number]
-    if own.kind not in GIVING_WAY:
-        return []
-    return [
-        n
-        for n in among
-        if (other := problem.space.candidates[n]).kind in GIVING_WAY
-        and not set(other.columns.tolist()) & set(own.columns.tolist())
-        and _canonical_correlation(hypothesis, own.columns, other.columns) > NAMING.alike
-    ]
-
-
-def _canonical_correlation(hypothesis: Hypothesis, one: Indices, other: Indices) -> float:
-    """The largest correlation of a combination of some values with one of others, 0 ... 1."""
-    covariance, first = hypothesis.covariance(np.concatenate([one, other])), slice(0, len(one))
-    second = slice(len(one), None)
-    halves = [np.linalg.inv(np.linalg.cholesky(covariance[s, s])) for s in (first, second)]
-    return float(np.linalg.norm(halves[0] @ covariance[first, second] @ halves[1].T, ord=2))
 
 
 def _better_placed(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
