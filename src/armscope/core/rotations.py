@@ -6,20 +6,28 @@ import numpy as np
 
 from armscope.core.types import Array
 
-IDENTITY = np.eye(3)
 SMALL_TURN = 1e-4
 """Below it (rad) the series of sin(a)/a and (1 - cos(a))/a^2 are exact to all digits after two terms."""
 
 
 def turned_by(vectors: Array) -> Array:
     """(..., 3, 3) rotation matrices of rotation vectors (..., 3), rad (Rodrigues 1840)."""
-    angle = np.sqrt((vectors * vectors).sum(axis=-1))[..., None, None]
+    x, y, z = np.moveaxis(np.asarray(vectors, dtype=float), -1, 0)
+    square = x * x + y * y + z * z
+    angle = np.sqrt(square)
     small = angle < SMALL_TURN
     safe = np.where(small, 1.0, angle)
-    first = np.where(small, 1 - angle**2 / 6, np.sin(safe) / safe)
-    second = np.where(small, 0.5 - angle**2 / 24, 2 * (np.sin(safe / 2) / safe) ** 2)
-    across = cross_matrices(vectors)
-    return np.asarray(IDENTITY + first * across + second * (across @ across))
+    first = np.where(small, 1 - square / 6, np.sin(safe) / safe)
+    second = np.where(small, 0.5 - square / 24, 2 * (np.sin(safe / 2) / safe) ** 2)
+    turned = np.empty((*square.shape, 3, 3))
+    # entry by entry: products of many small matrices take several times as long
+    turned[..., 0, 0] = 1 - second * (y * y + z * z)
+    turned[..., 1, 1] = 1 - second * (x * x + z * z)
+    turned[..., 2, 2] = 1 - second * (x * x + y * y)
+    for row, column, one, other, third in ((0, 1, x, y, z), (1, 2, y, z, x), (2, 0, z, x, y)):
+        both, across = second * one * other, first * third
+        turned[..., row, column], turned[..., column, row] = both - across, both + across
+    return turned
 
 
 def cross_matrices(vectors: Array) -> Array:

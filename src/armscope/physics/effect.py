@@ -7,6 +7,7 @@ diagnosis multiplies the same drivers with the frames' Jacobians (`armscope.phys
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -16,7 +17,19 @@ from armscope.core.types import Array
 from armscope.physics.clause import Clause, Told
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.loaded_arm import LoadedArm, Misstated
-from armscope.physics.terms import AXES, ONE, Direction, Driver, DriverKind, Product, Term, motor, term
+from armscope.physics.terms import (
+    AXES,
+    ONE,
+    Direction,
+    DrivenTogether,
+    Driver,
+    DriverKind,
+    Product,
+    Term,
+    driven_together,
+    motor,
+    term,
+)
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -140,6 +153,11 @@ class Placed:
     def key(self) -> tuple[str, str]:
         """(effect, location), as a verdict names it."""
         return self.effect.name, self.location
+
+    @functools.cached_property
+    def driven(self) -> tuple[DrivenTogether, ...]:
+        """What its terms move, direction by direction."""
+        return driven_together(self.terms)
 
     def __str__(self) -> str:
         extra = ", ".join(f"{name} {value:g}" for name, _, value in self.scanned)

@@ -7,6 +7,7 @@ gives way, once more where the arm stands with that: what is left is of third or
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field
@@ -19,7 +20,7 @@ from armscope.core.types import Array
 from armscope.physics import drivers
 from armscope.physics.effect import Part
 from armscope.physics.loaded_arm import AS_STATED, LoadedArm, Misstated
-from armscope.physics.terms import AXES, Direction, Driver, Term, motor
+from armscope.physics.terms import AXES, Direction, DrivenTogether, Driver, Term, all_driven, motor
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain, twist_jacobian
 from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
@@ -68,15 +69,38 @@ class Scene(LoadedArm):
         def add(direction: Direction, amount: Array) -> None:
             amounts[direction] = amounts[direction] + amount if direction in amounts else amount
 
+        linear = [part for part in parts if part.placed.effect.exact is None and part.values.any()]
         for part in parts:
             if part.placed.effect.exact is not None:
                 for direction, amount in part.placed.effect.exact(self, part):
                     add(direction, amount)
-                continue
-            for value, term in zip(part.values, part.placed.terms, strict=True):
-                for product in term.products if value else ():
-                    add(product.direction, value * product.factor * self.driver(product.driver))
+        for part in linear:  # part by part, as loads are kept: a link's mass is in those of all joints
+            for driver in _loads(part.placed.driven):
+                self.driver(driver)
+        if linear:
+            values = np.concatenate([part.values for part in linear])
+            for group in all_driven(tuple((part.placed.driven, len(part.values)) for part in linear)):
+                weights = values[group.at] * group.factors
+                if weights.any():
+                    add(group.direction, self._driven(group, weights.tolist()))
         return amounts
+
+    def _driven(self, group: DrivenTogether, weights: Sequence[float]) -> Array:
+        """(N,) what drivers of one direction come to."""
+        total, one = np.zeros(len(self)), np.empty(len(self))
+        for values, driver, weight in zip(self.rigid._at_hand(group), group.drivers, weights, strict=True):
+            if weight:
+                total += np.multiply(self.driver(driver) if values is None else values, weight, out=one)
+        return total
+
+    def _at_hand(self, group: DrivenTogether) -> list[Array | None]:
+        """Values of each driver, which are kept anyway: looking one up takes as long as it does; None for loads."""
+
+        def compute() -> list[Array | None]:
+            return [None if drivers.follows("load", driver) else self.driver(driver) for driver in group.drivers]
+
+        kept: list[Array | None] = self.remember(group, compute)
+        return kept
 
     def twists(self, parts: Sequence[Part]) -> dict[str, Array]:
         """Twists (N, 6) by frame of all parts together, SI units; motor turns become turns of the chain's joints."""
@@ -99,11 +123,10 @@ class Scene(LoadedArm):
         """The instrument's scale error of all parts together."""
         return float(
             sum(
-                value * product.factor
+                part.values[group.at] @ group.factors
                 for part in parts
-                for value, term in zip(part.values, part.placed.terms, strict=True)
-                for product in term.products
-                if product.direction == SCALE
+                for group in part.placed.driven
+                if group.direction == SCALE
             )
         )
 
@@ -136,9 +159,19 @@ FARTHEST_M = 0.2
 
 def _gives_way(part: Part) -> bool:
     """Whether a part follows a load and is there at all."""
-    return bool(np.any(part.values)) and any(
-        drivers.follows("load", product.driver) for term in part.placed.terms for product in term.products
-    )
+    return bool(part.values.any()) and any(map(_follows_load, part.placed.driven))
+
+
+@functools.lru_cache(maxsize=10_000)
+def _follows_load(group: DrivenTogether) -> bool:
+    """Whether some driver of it does."""
+    return any(drivers.follows("load", driver) for driver in group.drivers)
+
+
+@functools.lru_cache(maxsize=10_000)
+def _loads(driven: tuple[DrivenTogether, ...]) -> tuple[Driver, ...]:
+    """Those of the drivers that follow a load."""
+    return tuple(driver for group in driven for driver in group.drivers if drivers.follows("load", driver))
 
 
 @dataclass(eq=False)

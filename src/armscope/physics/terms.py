@@ -5,12 +5,15 @@ Everything is linear in one parameter per term, so that the exact model and the 
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
 
-from armscope.core.types import Array
+import numpy as np
+
+from armscope.core.types import Array, Indices
 
 AXES = ("tx", "ty", "tz", "rx", "ry", "rz")
 """The six directions of a twist: translations (m), then rotations (rad), along and about the axes of a frame."""
@@ -129,3 +132,57 @@ def term(
 def motor(j: int) -> Direction:
     """Motor angle j (1-based)."""
     return Direction(f"motor {j}", "turn")
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenTogether:
+    """The products of some terms that move in one direction: there, they come to one weighted sum of drivers.
+
+    Attributes:
+        direction: of them all.
+        at: (k,) number of each product's term.
+        factors: (k,) of the products.
+        drivers: k of them.
+    """
+
+    direction: Direction
+    at: Indices
+    factors: Array
+    drivers: tuple[Driver, ...]
+
+
+def driven_together(terms: Sequence[Term]) -> tuple[DrivenTogether, ...]:
+    """The products of terms, direction by direction."""
+    found: dict[Direction, list[tuple[int, float, Driver]]] = {}
+    for number, each in enumerate(terms):
+        for product in each.products:
+            found.setdefault(product.direction, []).append((number, product.factor, product.driver))
+    return _by_direction(found)
+
+
+@functools.lru_cache(maxsize=200)
+def all_driven(parts: tuple[tuple[tuple[DrivenTogether, ...], int], ...]) -> tuple[DrivenTogether, ...]:
+    """What several lists of terms move, side by side.
+
+    Args:
+        parts: what each list moves, and how many terms it has.
+
+    Returns:
+        The products of all of them, direction by direction, by numbers of terms that run on from list to list.
+    """
+    found: dict[Direction, list[tuple[int, float, Driver]]] = {}
+    first = 0
+    for groups, terms in parts:
+        for each in groups:
+            numbers = (each.at + first).tolist()
+            found.setdefault(each.direction, []).extend(zip(numbers, each.factors.tolist(), each.drivers, strict=True))
+        first += terms
+    return _by_direction(found)
+
+
+def _by_direction(found: Mapping[Direction, Sequence[tuple[int, float, Driver]]]) -> tuple[DrivenTogether, ...]:
+    groups = []
+    for direction, some in found.items():
+        at, factors, drivers = zip(*some, strict=True)
+        groups.append(DrivenTogether(direction, np.array(at, dtype=np.intp), np.array(factors), drivers))
+    return tuple(groups)
