@@ -71,7 +71,11 @@ def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
     spread = rms_distance(points)
     arms = ((name, nominal_description(name)) for name in nominal_names())
     fitting = ((name, build_arm(each)) for name, each in arms if each.n_motors(_joints(each)) == some.n_motors)
-    found = [_fit(name, arm, some, spread) for name, arm in fitting]
+    tried = [(_fit(name, arm, some, spread, TRIALS.first_steps), name, arm) for name, arm in fitting]
+    # what explains the points is near after the first steps
+    found = [
+        _fit(name, arm, some, spread) if 1e-3 * fit.rms_mm <= TRIALS.far * spread else fit for fit, name, arm in tried
+    ]
     return tuple(sorted(found, key=lambda fit: fit.rms_mm))
 
 
@@ -80,7 +84,7 @@ def _joints(description: object) -> int:
     return 0 if dh is None else len(dh.joints)
 
 
-def _fit(name: str, arm: Arm, table: Recordings, spread: float) -> NominalFit:
+def _fit(name: str, arm: Arm, table: Recordings, spread: float, steps: int = TRIALS.steps) -> NominalFit:
     rows = set_up(arm, table)
-    left = rms_distance(rows.residuals(placed(rows, TRIALS.steps)))
+    left = rms_distance(rows.residuals(placed(rows, steps)))
     return NominalFit(name, arm.name, 1e3 * left, left <= TRIALS.fits * spread)
