@@ -185,7 +185,7 @@ def _plain_equations(state: DiagnosisState) -> NormalEquations:
         return fit.equations
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
     return normal_equations_by_block(
-        fit.layout, fit.model, state.recordings, fit.weights.of_reference.unwhitened, one_block
+        fit.layout, fit.model, state.table, fit.weights.of_reference.unwhitened, one_block
     )[0]
 
 

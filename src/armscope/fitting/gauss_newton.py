@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
 import numpy as np
-from scipy.linalg.lapack import dposv
+from scipy.linalg.lapack import dposv, dpotrf
 
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
+from armscope.inference.linear_algebra import lower_inverse
 
 State = TypeVar("State")
 Residual = TypeVar("Residual")
@@ -47,15 +48,33 @@ class Quadratic:
         return np.asarray(1 / np.sqrt(np.maximum(np.diag(self.matrix), 1e-300)))
 
     @functools.cached_property
+    def _root(self) -> Array | None:
+        """(p, p) lower: its transpose times it is the inverse; None where rounding leaves the matrix indefinite."""
+        scaled = self.matrix * np.outer(self._scale, self._scale)
+        factor, failed = dpotrf(scaled.T, lower=1, clean=1, overwrite_a=1)
+        return None if failed else np.asarray(lower_inverse(factor) * self._scale)
+
+    @functools.cached_property
     def inverse(self) -> Array:
         """(p, p) of the matrix."""
+        if self._root is not None:
+            return np.asarray(self._root.T @ self._root)
         product = np.outer(self._scale, self._scale)
         return np.asarray(np.linalg.inv(self.matrix * product) * product)
 
     @functools.cached_property
+    def variances(self) -> Array:
+        """(p,) diagonal of the inverse, which is not needed for it."""
+        if self._root is None:
+            return np.asarray(self.inverse.diagonal())
+        return np.asarray(np.einsum("ij,ij->j", self._root, self._root))
+
+    @functools.cached_property
     def values(self) -> Array:
         """(p,) at the lowest point."""
-        return np.asarray(self.inverse @ self.right)
+        if self._root is None:
+            return np.asarray(self.inverse @ self.right)
+        return np.asarray(self._root.T @ (self._root @ self.right))
 
     def step(self, damping: float) -> Array:
         """(p,) towards the lowest point; damped, the less a value is told the more it stays."""

@@ -71,7 +71,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
             self.equations.b,
             current_parameters(self.parts, state),
         )
-        self.effective_dof = float(len(self.precision) - noise**2 * np.sum(np.diag(solved.inverse) * self.precision))
+        self.effective_dof = float(len(self.precision) - noise**2 * solved.variances @ self.precision)
         left = self.equations.rss(solved.values)
         self.noise = max(float(np.sqrt(max(left, 0.0) / max(self.equations.n - self.effective_dof, 1.0))), 1e-9)
         return solved
