@@ -49,6 +49,7 @@ test-long: .venv/installed-test
 benchmark: .venv/installed .venv-peers/installed .venv-figaroh/installed .venv-sysid/installed .venv-aurt/installed
 	$(BIN)/python -m benchmarks.kinematics
 	$(BIN)/python -m benchmarks.diagnosis
+	$(BIN)/python -m benchmarks.evidence
 	$(BIN)/python -m benchmarks.motion --figaroh .venv-figaroh/bin/python --sysid .venv-sysid/bin/python --aurt .venv-aurt/bin/python
 	$(BIN)/python -m benchmarks.poses
 	$(BIN)/python -m benchmarks.compensation

@@ -29,7 +29,8 @@ from armscope.diagnosis.state import Selected
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.registration import fit_frames
 from armscope.inference.additions import best_additions
-from armscope.inference.evidence import Hypothesis, evaluate, negative_log_prior
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.prices import negative_log_prior
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.measurement.channel import nuisances
@@ -109,8 +110,7 @@ def _step(words: str, problem: Problem, before: Hypothesis, after: Hypothesis) -
 
 
 def _price(problem: Problem, hypothesis: Hypothesis) -> float:
-    away = np.full(0, 0.0)  # the half of a prior that can't be is part of the evidence here
-    return negative_log_prior(problem, hypothesis.chosen, hypothesis.background, away)
+    return negative_log_prior(problem, hypothesis.chosen, hypothesis.background, np.empty(0))  # halves: evidence
 
 
 def steps(found: Selected) -> list[Step]:

@@ -12,10 +12,11 @@ from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.inference.additions import best_additions, group_candidates
-from armscope.inference.evidence import evaluate, removal_log_bayes_factors, savage_dickey
+from armscope.inference.evidence import evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem, prior_costs, prior_variances
+from armscope.inference.removals import removal_log_bayes_factors, savage_dickey
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.backgrounds import FAMILIES, backgrounds
 from armscope.physics.effect import Placed

@@ -19,8 +19,9 @@ from armscope.diagnosis.model_space import build_model_space
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.linearisation import point_residuals
 from armscope.inference.constants import PRIORS
-from armscope.inference.evidence import Hypothesis, evaluate, half_line_gain
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.normal_equations import total
+from armscope.inference.prices import half_line_gain
 from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise

@@ -13,10 +13,10 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.diagnosis.constants import FOLDING, LOOP
 from armscope.inference.edits import Edits, replaced
-from armscope.inference.evidence import Hypothesis, evaluate, fitted_values
+from armscope.inference.evidence import Hypothesis, at_noise, evaluate, fitted_values, is_beside
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 from armscope.inference.search import Search
 
 Reading = tuple[tuple[SelectedEffect, ...], BackgroundSizes]
@@ -173,9 +173,13 @@ def held_out_errors(
     Returns:
         (blocks, readings) sums of squares, mm^2; zeros where blocks are too few to hold out.
     """
-    return errors_of_fits(
-        problem, blocks, len(readings), lambda trained: [evaluate(trained, *reading, noise) for reading in readings]
-    )
+
+    def fit(trained: Problem) -> list[Hypothesis]:
+        large = is_beside(len(np.flatnonzero(prior_variances(trained, *readings[0]))))
+        near = at_noise(trained, *readings[0], noise) if large else None  # of which the others are parts
+        return [evaluate(trained, *reading, noise, near) for reading in readings]
+
+    return errors_of_fits(problem, blocks, len(readings), fit)
 
 
 def errors_of_fits(

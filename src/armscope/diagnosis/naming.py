@@ -16,9 +16,10 @@ from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_m
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
-from armscope.inference.evidence import Hypothesis, evaluate, savage_dickey
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.removals import savage_dickey
 from armscope.physics.soft_start import SOFT_START
 
 GIVES_NATS, GIVES = PRIORS.sure_nats, 0.1
@@ -148,7 +149,7 @@ def _instead(edits: Edits, hypothesis: Hypothesis, number: int) -> SelectedEffec
 
 def _with_names(problem: Problem, hypothesis: Hypothesis, names: Sequence[int], rms: Sequence[float]) -> Hypothesis:
     added = [SelectedEffect(n, problem.nearest_size(size), nested=True) for n, size in zip(names, rms, strict=True)]
-    return evaluate(problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise)
+    return evaluate(problem, (*hypothesis.chosen, *added), hypothesis.background, hypothesis.noise, hypothesis)
 
 
 def _size(problem: Problem, hypothesis: Hypothesis, number: int) -> float:

@@ -16,9 +16,10 @@ from scipy.linalg.blas import dtrmm
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
-from armscope.inference.evidence import Hypothesis, half_line_columns, negative_log_prior
+from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import profiled_loss, solve_lower
 from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.prices import half_line_columns, negative_log_prior
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
 

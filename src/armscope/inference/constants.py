@@ -148,6 +148,17 @@ class Numerics(Constants):
         "judgement: time; the result is the same",
         unit="columns",
     )
+    beside: int = constant(
+        300,
+        "from which a hypothesis is evaluated beside a known one",
+        "judgement: time; the result is the same but for rounding",
+        unit="columns",
+    )
+    departs: float = constant(
+        0.4,
+        "share of a hypothesis' columns that may change for another to follow from its factor",
+        "judgement: time; the result is the same",
+    )
     inverted_at_once: int = constant(
         64,
         "up to which a triangular matrix is inverted in one piece",

@@ -12,10 +12,11 @@ from armscope.core.types import Indices
 from armscope.inference.additions import AskedAdditions, CandidateGroups, addition_scores, background_scores
 from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, approximate_removal_loss, low_rank_update
 from armscope.inference.constants import BUDGET, PRIORS
-from armscope.inference.evidence import Hypothesis, evaluate, removal_log_bayes_factors, savage_dickey
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.model_space import BackgroundSizes, Candidate, ModelSpace
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.removals import removal_log_bayes_factors, savage_dickey
 
 T = TypeVar("T")
 
@@ -61,7 +62,9 @@ class Edits:
         Returns:
             The hypothesis.
         """
-        return evaluate(self.problem, tuple(chosen), like.background if background is None else background, like.noise)
+        whole = like if isinstance(like, Hypothesis) else like.whole
+        background = like.background if background is None else background
+        return evaluate(self.problem, tuple(chosen), background, like.noise, whole)
 
     def holding(self, columns: Indices) -> Self:
         """The same steps where no background holds some columns."""

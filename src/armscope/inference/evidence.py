@@ -13,13 +13,14 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
-from scipy.linalg.lapack import dtrtrs
-from scipy.special import log_ndtr
 
 from armscope.core.types import Array, Indices
-from armscope.inference.constants import NUMERICS, PRIORS
-from armscope.inference.linear_algebra import among, lower_cholesky, lower_inverse, solve_lower
+from armscope.inference.constants import NUMERICS
+from armscope.inference.departure import Departure, departure
+from armscope.inference.linear_algebra import among, lower_cholesky, lower_inverse, solve_lower, solve_upper
 from armscope.inference.model_space import BackgroundSizes
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.prices import half_line_columns, negative_log_prior
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
 
@@ -35,10 +36,10 @@ class Hypothesis:
         log_evidence: log evidence alone, nats.
         columns: columns of the space that take part, ascending.
         variance: their prior variances, mm^2 at the tool.
-        cholesky: lower Cholesky factor of G + noise^2 / variance.
-        mean: posterior mean of the scaled coefficients.
         rss: penalised residual sum of squares, mm^2.
-        known_inverse: of the factor, where evaluating it needed it.
+        equations: the sums that it is of.
+        known_factor, known_mean, known_inverse: its factor, means and the factor's inverse, where evaluating it needed
+            them.
     """
 
     settled: ClassVar[bool] = True
@@ -50,10 +51,30 @@ class Hypothesis:
     log_evidence: float
     columns: Indices = field(repr=False)
     variance: Array = field(repr=False)
-    cholesky: Array = field(repr=False)
-    mean: Array = field(repr=False)
     rss: float = field(repr=False)
+    equations: NormalEquations = field(repr=False)
+    known_factor: Array | None = field(default=None, repr=False)
+    known_mean: Array | None = field(default=None, repr=False)
     known_inverse: Array | None = field(default=None, repr=False)
+
+    @functools.cached_property
+    def cholesky(self) -> Array:
+        """Lower Cholesky factor of G + noise^2 / variance."""
+        if self.known_factor is not None:
+            return self.known_factor
+        return lower_cholesky(among(self.equations.G, self.columns), self.noise**2 / self.variance)
+
+    @functools.cached_property
+    def mean(self) -> Array:
+        """Posterior mean of the scaled coefficients."""
+        if self.known_mean is not None:
+            return self.known_mean
+        return solve_upper(self.cholesky, solve_lower(self.cholesky, self.equations.b[self.columns]))
+
+    @functools.cached_property
+    def effective_dof(self) -> float:
+        """How many values the data determine at its noise."""
+        return _effective_dof(self.inverse, self.noise, 1 / self.variance)
 
     @functools.cached_property
     def inverse(self) -> Array:
@@ -90,7 +111,11 @@ class Hypothesis:
 
 
 def evaluate(
-    problem: Problem, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes, noise: float
+    problem: Problem,
+    chosen: tuple[SelectedEffect, ...],
+    background: BackgroundSizes,
+    noise: float,
+    near: Hypothesis | None = None,
 ) -> Hypothesis:
     """Evidence of a hypothesis; the noise starts from ``noise`` and is re-estimated (MacKay 1992).
 
@@ -99,119 +124,150 @@ def evaluate(
         chosen: the effects, with their sizes.
         background: size of each family's background.
         noise: where the noise starts, mm per axis.
+        near: a hypothesis of most of its columns, from whose factor the first step follows if it is of the same sums
+            and noise; the result is the same but for rounding.
 
     Returns:
         The hypothesis with its evidence, nats, noise, mm, and posterior.
     """
     prior = prior_variances(problem, chosen, background)
     columns = np.flatnonzero(prior)
-    variance = prior[columns]
-    precision = 1 / variance
-    G, b = among(problem.equations.G, columns), problem.equations.b[columns]
-    factor = first = lower_cholesky(G, noise**2 * precision)
-    # how many values the data determine hardly changes with the noise: one inverse is enough
-    inverse = lower_inverse(first)
-    effective_dof = len(columns) - noise**2 * float(np.einsum("ij,ij->j", inverse, inverse) @ precision)
-    for step in range(NUMERICS.noise_steps):
-        whitened_rhs = solve_lower(factor, b)
-        rss = problem.equations.yy - float(whitened_rhs @ whitened_rhs)
-        mean = np.asarray(dtrtrs(factor, whitened_rhs, lower=1, trans=1)[0])
-        misfit = rss - noise**2 * float(mean**2 @ precision)
-        updated = math.sqrt(max(misfit, 0.0) / max(problem.n - effective_dof, 1.0))
-        updated = max(updated, problem.least_noise, 1e-6)
-        if step == NUMERICS.noise_steps - 1 or abs(updated - noise) < NUMERICS.noise_settled * noise:
-            break
-        noise = updated
-        factor = lower_cholesky(G, noise**2 * precision)
-    logdet = float(2 * np.log(factor.diagonal()).sum() + np.log(variance).sum()) - 2 * len(columns) * math.log(noise)
-    evidence = -problem.n * math.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
-    at = np.searchsorted(columns, half_line_columns(problem, chosen))
-    z_scores = mean[at] / (noise * np.sqrt(np.sum(inverse[:, at] ** 2, axis=0)))
-    posterior = evidence - negative_log_prior(problem, chosen, background, z_scores)
-    known = inverse if factor is first else None
-    return Hypothesis(chosen, background, noise, posterior, evidence, columns, variance, factor, mean, rss, known)
+    asked = _Asked(problem, chosen, background, columns, prior[columns])
+    if near is not None and near.equations is problem.equations and near.noise == noise and is_beside(len(columns)):
+        step = departure(near, columns, prior[columns])
+        if step is not None:
+            return asked.beside(step)
+    return asked.evaluated(noise)
 
 
-def half_line_columns(problem: Problem, chosen: Sequence[SelectedEffect]) -> list[int]:
-    """Columns of the effects, named for themselves, whose one coefficient can't be negative."""
-    candidates = (problem.space.candidates[effect.candidate] for effect in chosen if not effect.nested)
-    return [int(candidate.columns[0]) for candidate in candidates if candidate.nonnegative]
-
-
-def negative_log_prior(
-    problem: Problem, chosen: Sequence[SelectedEffect], background: BackgroundSizes, z_scores: Array
-) -> float:
-    """What a hypothesis pays for its effects and backgrounds, nats; infinite if some effect lacks what it requires.
+def at_noise(
+    problem: Problem, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes, noise: float
+) -> Hypothesis:
+    """As `evaluate`, at the noise as it is: from it follow others that start there.
 
     Args:
-        problem: the priors.
-        chosen: the effects.
+        problem: the normal equations and priors.
+        chosen: the effects, with their sizes.
         background: size of each family's background.
-        z_scores: standard errors from zero of each effect's value that can't be negative; half of the prior goes to
-            the other half, each by itself.
+        noise: mm per axis.
 
     Returns:
-        Nats.
+        The hypothesis with its evidence, nats, and posterior.
     """
-    own = [c for c in chosen if not c.nested]
-    if not problem.space.requirements_met(frozenset(c.candidate for c in chosen)):
-        return np.inf
-    paid = sum(problem.cost(c.candidate) for c in own)
-    paid += sum(cost for cost, size in zip(problem.family_costs, background, strict=True) if size)
-    paid += PRIORS.excess_special_case_nats * max(
-        problem.space.excess_special_cases(frozenset(c.candidate for c in own)), 0
-    )
-    return float(paid - half_line_gain(z_scores))
+    prior = prior_variances(problem, chosen, background)
+    columns = np.flatnonzero(prior)
+    return _Asked(problem, chosen, background, columns, prior[columns]).evaluated(noise, 1)
 
 
-def half_line_gain(z_scores: Array) -> float:
-    """What values gain that can't be negative, nats: priors twice as dense, posteriors' share above zero.
+def is_beside(columns: int) -> bool:
+    """Whether a hypothesis of so many columns is quicker evaluated beside a known one than by its own factor."""
+    return columns >= NUMERICS.beside
 
-    Args:
-        z_scores: standard errors from zero at which each value would stand if it could be negative.
 
-    Returns:
-        Nats; below zero where they would be negative.
+@dataclass(eq=False, slots=True)
+class _First:
+    """What hardly changes with the noise, where that starts.
+
+    Attributes:
+        effective_dof: how many values the data determine.
+        spread: (h,) standard errors of the values that can't be negative, in units of the noise.
     """
-    return float(np.sum(np.log(2) + log_ndtr(z_scores)))
+
+    effective_dof: float
+    spread: Array
+
+
+@dataclass(eq=False)
+class _Asked:
+    """A hypothesis whose evidence is asked for."""
+
+    problem: Problem
+    chosen: tuple[SelectedEffect, ...]
+    background: BackgroundSizes
+    columns: Indices
+    variance: Array
+    sums: Array | None = None
+
+    def __post_init__(self) -> None:
+        self.precision = 1 / self.variance
+        self.half_line = np.array(half_line_columns(self.problem, self.chosen), dtype=np.intp)
+        """Columns whose values can't be negative."""
+        self.at = self.columns.searchsorted(self.half_line)
+
+    def evaluated(self, noise: float, steps: int = NUMERICS.noise_steps) -> Hypothesis:
+        """By factors of its own; what the data determine hardly changes with the noise: one inverse is enough."""
+        factor = lower_cholesky(self._products(), noise**2 * self.precision)
+        inverse = lower_inverse(factor)
+        spread = np.sqrt((inverse[:, self.at] ** 2).sum(axis=0))
+        first = _First(_effective_dof(inverse, noise, self.precision), spread)
+        return self._settled(noise, steps, first, (factor, inverse))
+
+    def beside(self, step: Departure) -> Hypothesis:
+        """From a first step beside another hypothesis; by a factor of its own only where the noise moves."""
+        spread = step.spread(self.half_line)
+        if spread is None:
+            return self.evaluated(step.known.noise)
+        updated = self._updated(step.misfit, step.effective_dof)
+        if _moves(step.known.noise, updated):
+            return self._settled(updated, NUMERICS.noise_steps - 1, _First(step.effective_dof, spread))
+        z_scores = step.means(self.half_line) / (step.known.noise * spread)
+        return self._found(step.known.noise, step.log_evidence, step.rss, z_scores)
+
+    def _settled(
+        self, noise: float, steps: int, first: _First, known: tuple[Array | None, Array | None] = (None, None)
+    ) -> Hypothesis:
+        """Steps of the noise, the first of them with a factor and its inverse that may be known."""
+        b, precision, (factor, inverse) = self.problem.equations.b[self.columns], self.precision, known
+        for step in range(steps):
+            if factor is None:
+                factor = lower_cholesky(self._products(), noise**2 * precision)
+            whitened_rhs = solve_lower(factor, b)
+            rss = self.problem.equations.yy - float(whitened_rhs @ whitened_rhs)
+            mean = solve_upper(factor, whitened_rhs)
+            updated = self._updated(rss - noise**2 * float(mean**2 @ precision), first.effective_dof)
+            if step == steps - 1 or not _moves(noise, updated):
+                break
+            noise, factor, inverse = updated, None, None
+        assert factor is not None
+        logdet = float(2 * np.log(factor.diagonal()).sum() + np.log(self.variance).sum())
+        logdet -= 2 * len(self.columns) * math.log(noise)
+        evidence = -self.problem.n * math.log(noise) - 0.5 * logdet - 0.5 * rss / noise**2
+        z_scores = mean[self.at] / (noise * first.spread)
+        return self._found(noise, evidence, rss, z_scores, (factor, mean, inverse))
+
+    def _found(
+        self,
+        noise: float,
+        evidence: float,
+        rss: float,
+        z_scores: Array,
+        known: tuple[Array | None, Array | None, Array | None] = (None, None, None),
+    ) -> Hypothesis:
+        """The hypothesis, its price taken off, with factor, means and the factor's inverse where they are known."""
+        posterior = evidence - negative_log_prior(self.problem, self.chosen, self.background, z_scores)
+        named = (self.chosen, self.background, noise, posterior, evidence)
+        return Hypothesis(*named, self.columns, self.variance, rss, self.problem.equations, *known)
+
+    def _products(self) -> Array:
+        """(k, k) of the columns, looked up once."""
+        if self.sums is None:
+            self.sums = among(self.problem.equations.G, self.columns)
+        return self.sums
+
+    def _updated(self, misfit: float, effective_dof: float) -> float:
+        """The noise that leaves so much, mm."""
+        updated = math.sqrt(max(misfit, 0.0) / max(self.problem.n - effective_dof, 1.0))
+        return max(updated, self.problem.least_noise, 1e-6)
+
+
+def _moves(noise: float, updated: float) -> bool:
+    return abs(updated - noise) >= NUMERICS.noise_settled * noise
+
+
+def _effective_dof(inverse: Array, noise: float, precision: Array) -> float:
+    return len(inverse) - noise**2 * float(np.einsum("ij,ij->j", inverse, inverse) @ precision)
 
 
 def fitted_values(problem: Problem, hypotheses: Sequence[Hypothesis]) -> Array:
     """(K, p) the posterior means of K hypotheses, SI units; zero where a column takes no part."""
     return np.array([each.coefficients(len(problem.scale)) / problem.scale for each in hypotheses])
-
-
-def savage_dickey(hypothesis: Hypothesis, columns: Indices) -> float:
-    """Nats lost when columns are pinned to zero, at the noise as it is: the Savage-Dickey ratio (Dickey 1971)."""
-    sigma, mean, variance = hypothesis.covariance(columns), hypothesis.means(columns), hypothesis.variance
-    own = variance[hypothesis.at(columns)]
-    scaled = sigma / np.sqrt(np.outer(own, own))
-    return 0.5 * float(mean @ np.linalg.solve(sigma, mean)) + 0.5 * float(np.linalg.slogdet(scaled)[1])
-
-
-def removal_log_bayes_factors(problem: Problem, hypothesis: Hypothesis) -> Array:
-    """What each chosen effect's removal would cost, nats, at the noise as it is.
-
-    Removal replaces a prior precision 1/v by 1/rest; where nothing is left, the columns are pinned to zero.
-    """
-    members = [problem.space.candidates[effect.candidate].columns for effect in hypothesis.chosen]
-    at = hypothesis.at(np.concatenate(members))
-    variance, inverse = hypothesis.variance[at], hypothesis.inverse[:, at]
-    added = np.concatenate([problem.prior_scale(effect) for effect in hypothesis.chosen]) ** 2
-    rest = np.maximum(variance - added, 1e-12 * added)
-    root = np.sqrt(1 / rest - 1 / variance)
-    seen = hypothesis.noise * inverse * root
-    pull, widened = root * hypothesis.mean[at], np.log(variance / rest)
-    ends, lost = np.cumsum([len(columns) for columns in members]).tolist(), []
-    for effect, start, end in zip(hypothesis.chosen, [0, *ends[:-1]], ends, strict=True):
-        if end - start == 1:  # most of them: a number needs no LAPACK
-            square = float(seen[:, start] @ seen[:, start])
-            inner = max(1.0, NUMERICS.rounding * square) + square
-            quadratic, logdet = pull[start] ** 2 / inner, math.log(inner) - widened[start]
-        else:
-            own = slice(start, end)
-            factor = lower_cholesky(seen[:, own].T @ seen[:, own], np.ones(end - start))
-            quadratic = float((solve_lower(factor, pull[own]) ** 2).sum())
-            logdet = float(2 * np.log(factor.diagonal()).sum() - widened[own].sum())
-        lost.append(0.5 * quadratic + 0.5 * logdet - problem.cost(effect.candidate))
-    return np.array(lost)

@@ -51,6 +51,11 @@ def solve_lower(factor: Array, right: Array) -> Array:
     return np.asarray(dtrtrs(factor, right, lower=1)[0])
 
 
+def solve_upper(factor: Array, right: Array) -> Array:
+    """factor'^-1 right, of a lower factor."""
+    return np.asarray(dtrtrs(factor, right, lower=1, trans=1)[0])
+
+
 def schur_complement(G: Array, free: Indices, columns: Indices) -> Array:
     """(c, c) products of some columns beyond what the free ones absorb; those may depend on each other.
 

@@ -11,10 +11,10 @@ from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.detection import Detection
 from armscope.inference.edits import Edits
-from armscope.inference.evidence import savage_dickey
 from armscope.inference.linear_algebra import profiled_loss
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
+from armscope.inference.removals import savage_dickey
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, MENDED, TRANSMISSION
 from armscope.physics.loads import STATED_MASSES
