@@ -122,8 +122,9 @@ def sampled(
 
 
 def said(world: World, verdict: MotionVerdict) -> tuple[bool, str]:
-    """Whether the change is told as it is, and nothing beside it; and what is told."""
-    told = [each for each in verdict.effects if not each.minor]
+    """Whether the change is told as it is, and nothing false beside it; and what is told."""
+    true_beside = ("link_mass",) if world.wrong else ()
+    told = [each for each in verdict.effects if not each.minor and each.effect not in true_beside]
     changes = [each for each in told if each.effect == "load_change"]
     words = "; ".join(f"{each.title} {', '.join(f'{p.name} {p.value:.3g}' for p in each.parameters)}" for each in told)
     words += f" | {verdict.unexplained.location}" * verdict.unexplained.present
