@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from copy import copy
 from dataclasses import replace
 from pathlib import Path
 
@@ -73,6 +75,23 @@ def test_the_model_file_holds_it_and_a_prediction_elsewhere_says_that_it_does_no
     assert any("from 12.4" in note and "payload_kg" in note for note in notes)
 
 
+def test_the_cure_done_as_worded_leaves_no_load_that_changes(picked_up: tuple[World, MotionDiagnosis, Motions]) -> None:
+    """`payload_kg` from the moment on, and `tool_mm`, both read from the card's words."""
+    world, found, motions = picked_up
+    cure = found.verdict.effects[0].cure
+    told = re.search(r"stated \+([0-9.]+) ± .* from ([0-9.]+) s on.*`tool_mm: \[(.+)\]`", cure)
+    assert told, cure
+    tool = [float(at) for at in told[3].replace("−", "-").split(",")]
+    assert tool == pytest.approx(1e3 * world.at, abs=15)  # beside masses that are 5 % wrong
+    arm = build_moving_arm(RobotDescription.model_validate({**world.stated(), "tool_mm": tool}))
+    carried = np.where(motions.time >= float(told[2]), float(told[1]), 0.0)
+    again = diagnose_motion(arm, replace(motions, payload=carried)).verdict
+    assert not [each for each in again.effects if each.effect == "load_change"]
+    never = copy(world)
+    never.moments = ()
+    assert again.held_out.background < 1.25 * diagnosed(never)[0].verdict.held_out.background
+
+
 def test_no_mass_below_what_was_there_is_put_down(picked_up: tuple[World, MotionDiagnosis, Motions]) -> None:
     """The same selection on an arm whose last link, as it is stated, weighs less than what would have left it."""
     _, found, _ = picked_up
@@ -98,7 +117,7 @@ def test_of_several_runs_the_one_in_which_it_changes_is_told(seed: int) -> None:
     found, _ = diagnosed(world)
     right, words = said(world, found.verdict)
     assert right, words
-    assert "In run run 3 from" in found.verdict.headline
+    assert "In run 3 from" in found.verdict.headline
     assert found.verdict.held_out.what.endswith("run 3, of whose own load no other run knows")
 
 

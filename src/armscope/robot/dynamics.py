@@ -78,6 +78,11 @@ class MovingArm:
         parameters[place : place + 10] = pin.Inertia(1.0, at, np.zeros((3, 3))).toDynamicParameters()
         return parameters
 
+    def in_tool_frame(self, at: Array) -> Array:
+        """(3,) mm, of a point (3,), m, in the last joint's frame: as `tool_mm` states it."""
+        tip = self.model.frames[self.model.getFrameId(TIP)]
+        return np.asarray(tip.placement.actInv(at)) * 1e3
+
     def configurations(self, motors: Array) -> Array:
         """(N, nq) pinocchio configurations of motor positions (N, m)."""
         return configurations(self.model, motors @ self.actuation.T)

@@ -13,6 +13,7 @@ from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
 from armscope.motion.constants import CONSISTENCY
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
+from armscope.motion.library.clauses import run_in_words
 
 PARTS = "fifths of the motion"
 """What blocks of a single run are; `NOISE.blocks_of_time` of them."""
@@ -57,7 +58,7 @@ class PathAgreement:
     def words(self) -> str:
         """In a sentence."""
         if self.runs and self.paths:
-            return f"it is there in run {', '.join(self.runs)} only: no other path tells its size"
+            return f"it is there in {run_in_words(', '.join(self.runs))} only: no other path tells its size"
         if not self.tested:
             return f"by themselves, no two {'paths' if self.paths else PARTS} tell its size"
         telling = self.stderr < CONSISTENCY.telling

@@ -242,3 +242,15 @@ def lag_clause(cause: FoundCause, numbers: Numbers) -> str:
 def nameless_twist(cause: FoundCause, numbers: Numbers) -> str:
     """A link that lies elsewhere by no known law."""
     return f"the link of {cause.location} lies beside its motor as the {cause.driver} says ({rms_of(cause)})"
+
+
+def run_in_words(name: str) -> str:
+    """A run in a sentence, where many call theirs "run 1" and others "1".
+
+    Args:
+        name: as the table has it.
+
+    Returns:
+        It, after the word "run".
+    """
+    return name if name.lower().startswith("run ") else f"run {name}"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from armscope.core.numerals import rounded
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.clauses import Numbers, amount, rms_of
@@ -27,11 +29,22 @@ def jump_clause(cause: FoundCause, numbers: Numbers) -> str:
 
 
 def in_every_row(fitted: Fitted) -> str:
-    """What to record of a load."""
+    """What to record of a load, and where it sits."""
     mass = fitted.numbers.get("mass")
     if mass is None:
         return fitted.cure
-    return f"{fitted.in_general}: stated {amount(mass, sign=True)} {when(fitted.parameters)}, as stated at other times."
+    what = f"{fitted.in_general}: stated {amount(mass, sign=True)} {when(fitted.parameters)}, as stated at other times."
+    return f"{what} {where}" if (where := _where_it_sits(fitted)) else what
+
+
+def _where_it_sits(fitted: Fitted) -> str:
+    """That a load off the tool point must be stated where it is; nothing where that is not known, or one is there."""
+    moments = [fitted.numbers.get(f"m{axis}") for axis in "xyz"]
+    if fitted.of_law[:1] != (0.0,) or any(each is None for each in moments):
+        return ""
+    centre = np.array([each.value for each in moments if each]) / fitted.numbers["mass"].value
+    told = ", ".join(f"{round(float(at))}" for at in fitted.arm.in_tool_frame(centre))
+    return f"`payload_kg` acts at the tool point, and this load sits elsewhere: state `tool_mm: [{told}]` with it."
 
 
 def off_while_there(fitted: Fitted) -> str:

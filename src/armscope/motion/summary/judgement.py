@@ -13,6 +13,7 @@ from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.causes import PlacedCause
+from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.doubts import doubt_of
@@ -83,7 +84,7 @@ def _found(
 
 def title(placed: PlacedCause) -> str:
     """The name in words."""
-    where = f" in run {placed.runs[0]}" if placed.runs and placed.runs[0] else ""
+    where = f" in {run_in_words(placed.runs[0])}" if placed.runs and placed.runs[0] else ""
     if placed.cause.nameless:
         return f"an unknown torque at {placed.location} that follows the {placed.driver}"
     name = placed.cause.name.replace("_", " ")
