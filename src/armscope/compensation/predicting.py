@@ -75,16 +75,29 @@ def _by_physics(model: Path, poses: Path, pose: bool) -> Found:
     fitted = load_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
     notes = _refuse_missing_context(model, fitted, rows)
-    notes += [
-        f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
-        for run in fitted.unknown_runs(rows)
-    ]
-    notes += _of_now(fitted, rows)
+    notes += notes_on_rows(fitted, rows)
     return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
 
 
+def notes_on_rows(fitted: FittedModel, rows: Recordings) -> list[str]:
+    """What is told beside a prediction: runs that the model doesn't know, and what follows the order of rows.
+
+    Args:
+        fitted: the model.
+        rows: of poses.
+
+    Returns:
+        Notes; none where nothing is assumed.
+    """
+    unknown = [
+        f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
+        for run in fitted.unknown_runs(rows)
+    ]
+    return [*unknown, *_of_now(fitted, rows)]
+
+
 def _of_now(fitted: FittedModel, rows: Recordings) -> list[str]:
-    """What is told where a model follows the order of rows: of which rows poses are, by ids or without."""
+    """Of which rows of its recordings poses are, by ids or without, where a model follows their order."""
     from armscope.compensation.physical import drivers_of
 
     kinds = drivers_of(fitted) & {"after row", "rows", "slow wave of rows"}

@@ -4,6 +4,9 @@ An effect's share is the part of the residual variance after the free frames tha
 in which effects and backgrounds can be let in (Shapley 1953; for regression Lindeman, Merenda & Gold 1980). Shares are
 never negative, and together they are what the whole model explains. (The variance of an effect by itself has neither
 property: of two that nearly cancel, each would be worth many times the mismatch.)
+
+They order and weigh what was found. What a verdict prints is what a cure as it was found is worth, which can be below
+zero (`armscope.verdict.importance`).
 """
 
 from __future__ import annotations

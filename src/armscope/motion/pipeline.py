@@ -53,6 +53,7 @@ from armscope.motion.summary.judgement import (
 )
 from armscope.motion.summary.lasting import lasting_torques
 from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
@@ -248,7 +249,7 @@ def _judged(
     answer, mismatch = answer_of(found, left, errors)
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(found, errors, lasting),
+        headline=headline(found, errors, lasting, likeliest_in_words(selected) if errors.only_unnamed else ""),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,

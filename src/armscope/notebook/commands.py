@@ -23,7 +23,7 @@ from armscope.compensation.error_model_file import load_error_model
 from armscope.compensation.path import WantedPath, as_path, read_path
 from armscope.compensation.physical import FILE as DOMAIN
 from armscope.compensation.physical import identified_on, load_identified
-from armscope.compensation.predicting import points_table, predict_file
+from armscope.compensation.predicting import notes_on_rows, points_table, predict_file
 from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
@@ -31,6 +31,7 @@ from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
+from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model import predict as predicted_points
@@ -152,7 +153,7 @@ def calibrate(recordings: Table, robot: Robot, **options: Any) -> Calibration:
 
 
 def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
-    """Where the tool point will be, mm: `armscope predict`.
+    """Where the tool point will be, mm: `armscope predict`, whose notes are warnings here.
 
     Args:
         model: a diagnosis, a fitted model, or the path of model.yaml, errormodel.json, robot.yaml or a URDF.
@@ -171,11 +172,11 @@ def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
         return model.predict(poses)
     if isinstance(model, str | Path) and isinstance(poses, str | Path):
         if is_motion_table(poses):
-            return predict_motions(Path(model), Path(poses))[0]
-        return predict_file(Path(model), Path(poses), pose)[0]
+            return with_notes(predict_motions(Path(model), Path(poses)))
+        return with_notes(predict_file(Path(model), Path(poses), pose))
     fitted = _fitted(model)
     rows = read_recordings(poses, fitted.arm, measured=False)
-    return points_table(predicted_points(fitted, rows), None, rows)
+    return with_notes((points_table(predicted_points(fitted, rows), None, rows), notes_on_rows(fitted, rows)))
 
 
 def compensate(

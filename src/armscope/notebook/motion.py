@@ -15,6 +15,7 @@ from armscope.motion.export import write_motion
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.predicting import torque_table
 from armscope.notebook.html import paragraphs, table
+from armscope.notebook.notes import with_notes
 from armscope.recordings.first_lines import is_motion, is_motion_table
 from armscope.recordings.motions import Motions, as_motions, read_motions
 from armscope.report.motion_subject import MotionSubject
@@ -75,12 +76,12 @@ class MotionDiagnosed(MotionDiagnosis):
         return figure_named(MOTION_SECTIONS, MotionSubject(self, "motions"), name)
 
     def predict(self, motions: MotionTable) -> pd.DataFrame:
-        """The torques of every sample of a motion, as `armscope predict` writes them.
+        """The torques of every sample of a motion, as `armscope predict` writes them; its notes are warnings.
 
         Raises:
             InputError: the motion can't be used.
         """
-        return torque_table(self.model, _read(motions, self.arm.n_motors, measured=False))[0]
+        return with_notes(torque_table(self.model, _read(motions, self.arm.n_motors, measured=False)))
 
 
 def diagnose_moving(motions: MotionTable, robot: Path | str, **options: Any) -> MotionDiagnosed:

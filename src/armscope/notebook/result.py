@@ -8,9 +8,10 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.compensation.physical import FILE, identified_on, save_identified
-from armscope.compensation.predicting import points_table
+from armscope.compensation.predicting import notes_on_rows, points_table
 from armscope.core.outputs import Delivery
 from armscope.notebook.html import paragraphs, table
+from armscope.notebook.notes import with_notes
 from armscope.physics.model import predict
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
@@ -85,7 +86,7 @@ class Diagnosed(Diagnosis):
         return figure_named(SECTIONS, Subject(self), name)
 
     def predict(self, poses: Recordings | pd.DataFrame | Path | str) -> pd.DataFrame:
-        """Where the tool point will be at other poses, mm, in the measurement frame.
+        """Where the tool point will be at other poses, mm, in the measurement frame; notes are warnings.
 
         Raises:
             InputError: the poses can't be used.
@@ -94,4 +95,4 @@ class Diagnosed(Diagnosis):
         if isinstance(poses, pd.DataFrame):
             poses = as_recordings(poses, "data frame", motors, measured=False)
         rows = poses if isinstance(poses, Recordings) else read_recordings(poses, motors, measured=False)
-        return points_table(predict(self.model, rows), None, rows)
+        return with_notes((points_table(predict(self.model, rows), None, rows), notes_on_rows(self.model, rows)))

@@ -10,7 +10,7 @@ import pytest
 from armscope.core.types import Array, unheard
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.load_cells import Cells, JointRows
-from armscope.motion.fitting.load_changes import likeliest, load_changes
+from armscope.motion.fitting.load_changes import as_likely, likeliest, load_changes
 from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes import Change
@@ -30,6 +30,23 @@ def test_the_likeliest_sequence_is_the_best_of_all(price: float) -> None:
     all_of_them = np.array(list(itertools.product((False, True), repeat=len(worth))))
     scores = all_of_them @ worth - price * np.sum(np.diff(all_of_them.astype(int), axis=1) != 0, axis=1)
     assert likeliest(worth, price).tolist() == all_of_them[np.argmax(scores)].tolist()
+
+
+def test_rows_that_tell_nothing_leave_the_moment_open() -> None:
+    """By all sequences whose one moment lies elsewhere: those within two nats."""
+    rng = np.random.default_rng(5)
+    true = np.arange(40) >= 18
+    worth = np.where(true, 1.0, -1.0) * rng.uniform(2.5, 6.0, 40)
+    worth[12:22] = rng.normal(0, 0.02, 10)
+    found = likeliest(worth, 3.0)
+    (k,) = np.flatnonzero(np.diff(found.astype(int)))
+    nats = [float(worth[after + 1 :].sum()) for after in range(39)]
+    as_good = [after for after in range(39) if nats[after] > nats[k] - 2]
+    assert as_likely(worth, found, int(k)) == (min(as_good), max(as_good)) == (11, 21)
+    goes_again = np.arange(40) < 30
+    worth, found = np.where(goes_again, worth, -np.abs(worth)), found & goes_again
+    assert as_likely(worth, found, int(k)) == (11, 21)
+    assert as_likely(worth, found, 29) == (29, 29)
 
 
 def made(rng: np.random.Generator, there: Array, load: Array) -> JointRows:

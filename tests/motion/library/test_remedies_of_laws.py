@@ -96,6 +96,26 @@ def spring(cure: str) -> Torque:
     return at_joint(lambda q, v, a, T: stiffness * (q + beside) + torque)
 
 
+def mounted(q: Array) -> Array:
+    """A gas spring of 800 N between points 0.2 and 0.12 m from the axis: force times the slope of its length, N m."""
+    near, far, x, step = 0.12, 0.2, q + 1.9, 1e-6
+    long = lambda at: np.sqrt(near**2 + far**2 - 2 * near * far * np.cos(at))
+    return 800 * (long(x + step) - long(x - step)) / (2 * step)
+
+
+def between_links(cure: str) -> Torque:
+    force, growth, less, phase, squares, twice = told(cure.replace("√(", "√ "), "model: ")
+    for words in (") × sin(x) / l, where x is position", "× (l −", "and l = √(", "cos x)."):
+        assert words in cure
+
+    def pull(q: Array) -> Array:
+        x = q + phase
+        long = np.sqrt(squares + twice * np.cos(x))
+        return (force + growth * (long + less)) * np.sin(x) / long
+
+    return at_joint(lambda q, v, a, T: pull(q))
+
+
 def waves(cure: str) -> Torque:
     numbers = told(cure, "model: ")
     if "sin(angle)" in cure:
@@ -123,6 +143,7 @@ CASES = {
     "turns with the difference": Case("coupled_inertia", FROM, turning(-1), TURNS),
     "spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 5 * (q - 0.4)), spring),
     "counterweight": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 6 * np.sin(q + 0.5)), waves),
+    "gas spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: mounted(q)), between_links),
     "ripple": Case("torque_ripple", AT, at_joint(lambda q, v, a, T: 2 * np.sin(9 * q + 0.5)), waves),
 }
 

@@ -8,18 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
+from scipy.optimize import minimize
 
 from armscope.core.types import Array
-from armscope.inference.linear_algebra import lower_cholesky, solve_lower
+from armscope.inference.constants import PRIORS
+from armscope.inference.linear_algebra import lower_cholesky, solve_lower, solve_upper
+from armscope.inference.problem import SelectedEffect
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import columns_of
+from armscope.motion.fitting.weights import weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
-from armscope.motion.library.linkage import pull, pushes_one_way
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.linkage import BETWEEN_LINKS, pull, pushes_one_way
 from armscope.motion.library.linkage_constants import LINKAGE
 
 Mount = tuple[float, float]
@@ -38,19 +44,46 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
     """
     layout = selected.rows.layout
     placed = layout.placed[number]
-    rivals = [n for n in selected.best.candidates if _follows_angle(layout.placed[n], placed.joints)]
-    if not rivals or not isinstance(placed.columns, Law):
+    at = {n: layout.placed[n] for n in selected.best.candidates}
+    rivals = [n for n in at if _follows_angle(at[n], placed.joints) or _nameless(at[n], placed.joints)]
+    if not any(_follows_angle(at[n], placed.joints) for n in rivals) or not isinstance(placed.columns, Law):
         return placed, True
     judged, (phase, ratio, middle) = _Judged(selected, placed.joints[0], rivals), placed.columns.numbers
     if len(judged.left) < LINKAGE.least_rows:
         return placed, True
     (so_far,) = judged.nats([(phase, ratio)], middle)
     best, nats = max((_finest(judged, start, middle) for start in _starts(judged, middle)), key=lambda found: found[1])
-    rests = NOISE.settled if number in selected.best.candidates else LINKAGE.much * nats
-    if nats < so_far + rests:
+    least = NOISE.settled if number in selected.best.candidates else PRIORS.sure_nats
+    if nats < so_far + least:
         return placed, True
     law = replace(placed.columns, numbers=(*best, middle))
     return replace(placed, columns=law, scanned=(("phase", "rad", best[0]), ("ratio", "", best[1]))), False
+
+
+def springs_alone(layout: TorqueLayout, chosen: Sequence[SelectedEffect]) -> list[tuple[SelectedEffect, ...]]:
+    """Names with a spring between links in the place of all that follows its joint's angle, or has no name there.
+
+    A curve of the angle and what it misses of a spring, told as an unknown, hold each other up: without either the
+    other is worth more than a spring beside it.
+
+    Args:
+        layout: of the columns.
+        chosen: what has a name.
+
+    Returns:
+        Of each joint with such a curve.
+    """
+    found = []
+    for number, spring in enumerate(layout.placed):
+        if spring.variant != BETWEEN_LINKS or number in {effect.candidate for effect in chosen}:
+            continue
+        at = {effect: layout.placed[effect.candidate] for effect in chosen}
+        curves = [effect for effect in chosen if _follows_angle(at[effect], spring.joints)]
+        if curves:
+            nameless = [effect for effect in chosen if _nameless(at[effect], spring.joints)]
+            others = (effect for effect in chosen if effect not in curves and effect not in nameless)
+            found.append((*others, replace(curves[0], candidate=number)))
+    return found
 
 
 def _starts(judged: _Judged, middle: float) -> list[Mount]:
@@ -63,19 +96,22 @@ def _starts(judged: _Judged, middle: float) -> list[Mount]:
 
 
 def _finest(judged: _Judged, start: Mount, middle: float) -> tuple[Mount, float]:
-    """The best about a start, from coarse to fine, and by how many nats it betters what is left."""
-    best, nats, step = start, -np.inf, 1.0
-    for _ in range(LINKAGE.levels):
-        by = step * np.linspace(-1, 1, 2 * LINKAGE.finer + 1)
-        near = [
-            (best[0] + one * 2 * np.pi / LINKAGE.phases, _possible(best[1] + other * LINKAGE.between))
-            for one in by
-            for other in by
-        ]
-        found = judged.nats(near, middle)
-        best, nats = near[int(np.argmax(found))], float(found.max())
-        step /= LINKAGE.finer
-    return best, nats
+    """The best about a start (Nelder & Mead 1965), and by how many nats it betters what is left.
+
+    Where the spring is all that its joint feels, a fifth of a degree is far more than the rows bear.
+    """
+
+    def worse(mount: Array) -> float:
+        return -float(judged.nats([(mount[0], _possible(mount[1]))], middle)[0])
+
+    step = np.array([[0.0, 0.0], [np.pi / LINKAGE.phases, 0.0], [0.0, LINKAGE.between / 2]])
+    found = minimize(
+        worse,
+        np.array(start),
+        method="Nelder-Mead",
+        options={"initial_simplex": start + step, "xatol": LINKAGE.settled, "fatol": LINKAGE.settled},
+    )
+    return (float(found.x[0]), _possible(float(found.x[1]))), -float(found.fun)
 
 
 def _follows_angle(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
@@ -83,31 +119,43 @@ def _follows_angle(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
     return placed.joints == joints and placed.cause in (catalogue.BALANCER, catalogue.CABLE)
 
 
+def _nameless(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
+    """Whether it is something of one joint that has no name."""
+    return placed.joints == joints and placed.cause.nameless
+
+
 def _possible(ratio: float) -> float:
     return float(np.clip(ratio, LINKAGE.least_ratio, LINKAGE.largest_ratio))
 
 
 class _Judged:
-    """One joint's torque without what follows its angle, beside everything else that is chosen: in some rows."""
+    """One joint's torque without what follows its angle, beside everything else that is chosen: in some rows.
+
+    These rows stand for all of the joint's, also where they say what everything else is worth: beside a spring hundreds
+    of times the noise, sums over other rows would differ from theirs by more than the noise is.
+    """
 
     def __init__(self, selected: SelectedCauses, joint: int, without: Sequence[int]) -> None:
         rows, best, scale = selected.rows, selected.best, selected.problem.scale
         left_out = np.concatenate([rows.layout.columns[number] for number in without])
         others = np.setdiff1d(best.columns, left_out)
-        sums, variance = selected.problem.equations, best.variance[best.at(others)]
-        information = sums.G[np.ix_(others, others)] / best.noise**2 + np.diag(1 / variance)
-        fitted = np.linalg.solve(information, sums.b[others] / best.noise**2)
         held = rows.pauses[joint].holding(len(rows), LINKAGE.held)
         among = np.flatnonzero((selected.weights.row[:, joint] > 0) & ~held)
         every = -(-len(among) // LINKAGE.rows)
         among = among[::every]
         unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
         self.root = np.sqrt(every * unit * selected.weights.row[among, joint])
-        columns = columns_of(selected, joint, others)[among] / scale[others]
-        beyond = (rows.torque[:, joint] - rows.nominal[:, joint])[among]
-        self.left = self.root * (beyond - columns @ fitted)
-        factor = lower_cholesky(information, np.zeros(len(others)))
-        self.absorbed, self.angle = solve_lower(factor, (self.root[:, None] * columns).T), rows.q[among, joint]
+        beyond = self.root * (rows.torque[:, joint] - rows.nominal[:, joint])[among]
+        columns = self.root[:, None] * columns_of(selected, joint, others)[among] / scale[others]
+        elsewhere = weighed(rows, (each for each in chain(*selected.by_joint) if each.joint != joint), selected.weights)
+        in_units = np.outer(scale[others], scale[others]) * best.noise**2
+        prior = np.diag(1 / best.variance[best.at(others)])
+        factor = lower_cholesky(
+            elsewhere.G[np.ix_(others, others)] / in_units + columns.T @ columns + prior, np.zeros(len(others))
+        )
+        worth = elsewhere.b[others] / scale[others] / best.noise**2 + columns.T @ beyond
+        self.left = beyond - columns @ solve_upper(factor, solve_lower(factor, worth))
+        self.absorbed, self.angle = solve_lower(factor, columns.T), rows.q[among, joint]
         self.prior = LINKAGE.usual_torque**-2 / max(float(np.mean(rows.torque[among, joint] ** 2)), 1e-300)
 
     def nats(self, mounts: Sequence[Mount], middle: float) -> Array:

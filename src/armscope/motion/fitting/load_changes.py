@@ -208,8 +208,10 @@ class _Run:
         share = ndtr((self.time[some] - tried[:, None]) * self.rises)
         share = share if there[k + 1] else 1 - share
         nats = np.sum(row * (without - share[:, :, None] * of_load) ** 2, axis=(1, 2)) / 2
-        alike = tried[nats < nats.min() + CHANGE.as_good_nats]
-        return float(tried[np.argmin(nats)]), float(max(np.ptp(alike) / 2, usual / CHANGE.steps))
+        alike, at = tried[nats < nats.min() + CHANGE.as_good_nats], float(tried[np.argmin(nats)])
+        first, last = as_likely(self._worth(fit, there), there, k)
+        rows_away = [at - self.time[first] if first < k - 1 else 0.0, self.time[last + 1] - at if last > k + 1 else 0.0]
+        return at, float(max(np.ptp(alike) / 2, usual / CHANGE.steps, *rows_away))
 
 
 def likeliest(worth: Array, price: float) -> NDArray[np.bool_]:
@@ -232,3 +234,25 @@ def likeliest(worth: Array, price: float) -> NDArray[np.bool_]:
         found[k] = bool(state)
         state = 1 - state if came[k, state] else state
     return found
+
+
+def as_likely(worth: Array, there: NDArray[np.bool_], k: int) -> tuple[int, int]:
+    """After which rows the load may as well come or go as after row k, between its moments before and behind.
+
+    Where joints stand or hardly move, the rows in between tell nothing.
+
+    Args:
+        worth: (K,) nats by which a row is likelier with the load than without.
+        there: (K,) with a load, which comes or goes after row k.
+        k: from 0.
+
+    Returns:
+        The first and the last such row.
+    """
+    turns = np.r_[-1, np.flatnonzero(np.diff(there.astype(np.int8))), len(there) - 1]
+    n = int(np.searchsorted(turns, k))
+    after = np.arange(turns[n - 1] + 1, turns[n + 1])
+    so_far = np.cumsum(worth)[after]
+    lost = (so_far - so_far[k - after[0]]) * (1 if there[k + 1] else -1)
+    as_good = after[lost < CHANGE.as_good_nats]
+    return int(as_good[0]), int(as_good[-1])

@@ -17,11 +17,6 @@ class LinkageRules(Constants):
         "of its ends' distances from the axis that are tried",
         "judgement: below these it is a sine, above them its ends all but meet",
     )
-    much: float = constant(
-        1e-4,
-        "of what a spring explains that has no name, below which it stays where it is",
-        "measured: with a hundredth, two of eight planted gas springs stayed where the first scan put them, as cables",
-    )
     growth: float = constant(
         0.3,
         "of its force by which that may change along its stroke, RMS",
@@ -32,9 +27,10 @@ class LinkageRules(Constants):
     sectors: int = constant(12, "of the turn, in each of which the best is looked at", "judgement: 30 degrees")
     starts: int = constant(6, "of these, from which finer ones are tried", "judgement: time")
     between: float = constant(0.08, "two ratios that are tried", "derived: the first scan's step")
-    finer: int = constant(5, "steps either way about the best, of a scan that is as much finer", "judgement: time")
     rows: int = constant(2000, "at which mounts are tried, at most", "judgement: time; curves of the angle need few")
-    levels: int = constant(2, "of finer scans", "judgement: then half a degree is known")
+    settled: float = constant(
+        1e-4, "rad, of the ratio, and nats, by which a mount still moves", "judgement: less than any rows bear"
+    )
     usual_torque: float = constant(
         3.0, "of the joint's torque, that a spring's may be", "judgement: wide; springs hold what gravity asks for"
     )

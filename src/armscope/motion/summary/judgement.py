@@ -231,13 +231,16 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
     return "explained", True
 
 
-def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequence[LastingTorque] = ()) -> str:
+def headline(
+    found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequence[LastingTorque] = (), likeliest: str = ""
+) -> str:
     """The largest causes with what each has of the torque that friction and rotors leave, the others by family.
 
     Args:
         found: the causes, largest first.
         errors: on motion that took no part.
         lasting: what lasts and has no law, largest first.
+        likeliest: the name of masses that comes next where none is sure enough.
 
     Returns:
         A sentence or some.
@@ -248,8 +251,8 @@ def headline(found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequen
         met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
         return (
             "Masses of the links are not as stated, in a way that no single name says better than all of them off a "
-            f"little: corrected.urdf has them as fitted. {beyond}{ON_HELD_OUT} the torque is met to {met} by them "
-            f"instead of {before}."
+            f"little: corrected.urdf has them as fitted. {likeliest}{beyond}"
+            f"{ON_HELD_OUT} the torque is met to {met} by them instead of {before}."
         )
     if not found and lasting:
         return f"{beyond}No cause of the library explains it. {errors.words()}"

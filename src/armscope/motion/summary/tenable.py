@@ -31,7 +31,7 @@ from armscope.motion.library.layout import OWN
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
-from armscope.motion.summary.unnamed_masses import odds_of_name
+from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
 
@@ -210,7 +210,8 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     best, gains = selected.best, held_out_gains(selected)
     agree = {number: agreement(selected, number).consistent for number in best.candidates}
     yield from (number for number in best.candidates if agree[number] is False)
-    spared = {n for n in best.candidates if (agree[n] and _of_masses(selected, n)) or _untold(selected, n, agree[n])}
+    masses = {n for n in best.candidates if is_of_masses(selected.rows.layout.placed[n])}
+    spared = {n for n in best.candidates if (agree[n] and n in masses) or _untold(selected, n, agree[n])}
     useless = [n for n in best.candidates if gains[n] <= 0 and n not in spared]
     if not useless:
         return
@@ -230,18 +231,12 @@ def _told_apart(selected: SelectedCauses) -> SelectedCauses:
     Not of what is there in some runs only: no link is otherwise there.
     """
     while True:
-        masses = [n for n in selected.best.candidates if _of_masses(selected, n)]
+        masses = [n for n in selected.best.candidates if is_of_masses(selected.rows.layout.placed[n])]
         odds, least = min(((odds_of_name(selected, number), number) for number in masses), default=(np.inf, 0))
         if odds >= INDISTINGUISHABLE_NATS:
             return selected
         kept = [effect for effect in selected.best.chosen if effect.candidate != least]
         selected = at_own_gain(_alone(selected, kept))
-
-
-def _of_masses(selected: SelectedCauses, number: int) -> bool:
-    """Whether a cause is masses that are other than stated in all runs, as the background of masses has them, too."""
-    placed = selected.rows.layout.placed[number]
-    return placed.inertial is not None and not placed.runs
 
 
 def held_out_gains(selected: Weighed) -> dict[int, float]:

@@ -14,11 +14,14 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Indices
+from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes, ToleranceFamily
 from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.search import Search
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.library.causes import PlacedCause
 from armscope.motion.summary.constants import NAMING
 
 SHARES = (*PRIOR.inertial_shares, *NAMING.another_link)
@@ -39,6 +42,34 @@ def odds_of_name(selected: SelectedCauses, number: int) -> float:
     kept = tuple(effect for effect in best.chosen if effect.candidate != number)
     named, unnamed = (_at_best_shares(selected, freed, effects) for effects in (best.chosen, kept))
     return named - unnamed
+
+
+def is_of_masses(placed: PlacedCause) -> bool:
+    """Whether a cause is masses that are other than stated in all runs, as the background of masses has them, too."""
+    return placed.inertial is not None and not placed.runs
+
+
+def likeliest_name(selected: SelectedCauses) -> tuple[SelectedCauses, int, float] | None:
+    """The name of masses that says most of what has none there, where it is at least likelier than none.
+
+    Args:
+        selected: a selection without a name of masses.
+
+    Returns:
+        The selection with it, its number, and by how many nats it is likelier than none; None where there is none.
+    """
+    search, placed = Search.on(selected.problem), selected.rows.layout.placed
+    others = [n for n, cause in enumerate(placed) if not is_of_masses(cause)]
+    masses = [family.name for family in selected.space.families].index("masses")
+    smaller = (search.with_background(selected.best, masses, n) for n in range(selected.best.background[masses] + 1))
+    named = [search.with_best_sizes(each) for start in smaller for each in search.additions(start, 1, others)]
+    if not named:
+        return None
+    best = max(named, key=by_posterior)
+    (number,) = best.candidates - selected.best.candidates
+    found = replace(selected, best=best)
+    nats = odds_of_name(found, number)
+    return (found, number, nats) if nats > 0 else None
 
 
 def odds_of_weight(selected: SelectedCauses, number: int) -> float:
