@@ -14,9 +14,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from armscope.core.types import Array
-from armscope.inference.constants import PRIORS
 from armscope.inference.linear_algebra import lower_cholesky, solve_lower, solve_upper
-from armscope.inference.problem import SelectedEffect
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import columns_of
@@ -24,8 +22,7 @@ from armscope.motion.fitting.weights import weighed
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
-from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.library.linkage import BETWEEN_LINKS, pull, pushes_one_way
+from armscope.motion.library.linkage import pull, pushes_one_way
 from armscope.motion.library.linkage_constants import LINKAGE
 
 Mount = tuple[float, float]
@@ -44,46 +41,19 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
     """
     layout = selected.rows.layout
     placed = layout.placed[number]
-    at = {n: layout.placed[n] for n in selected.best.candidates}
-    rivals = [n for n in at if _follows_angle(at[n], placed.joints) or _nameless(at[n], placed.joints)]
-    if not any(_follows_angle(at[n], placed.joints) for n in rivals) or not isinstance(placed.columns, Law):
+    rivals = [n for n in selected.best.candidates if _follows_angle(layout.placed[n], placed.joints)]
+    if not rivals or not isinstance(placed.columns, Law):
         return placed, True
     judged, (phase, ratio, middle) = _Judged(selected, placed.joints[0], rivals), placed.columns.numbers
     if len(judged.left) < LINKAGE.least_rows:
         return placed, True
     (so_far,) = judged.nats([(phase, ratio)], middle)
     best, nats = max((_finest(judged, start, middle) for start in _starts(judged, middle)), key=lambda found: found[1])
-    least = NOISE.settled if number in selected.best.candidates else PRIORS.sure_nats
-    if nats < so_far + least:
+    rests = NOISE.settled if number in selected.best.candidates else LINKAGE.much * nats
+    if nats < so_far + rests:
         return placed, True
     law = replace(placed.columns, numbers=(*best, middle))
     return replace(placed, columns=law, scanned=(("phase", "rad", best[0]), ("ratio", "", best[1]))), False
-
-
-def springs_alone(layout: TorqueLayout, chosen: Sequence[SelectedEffect]) -> list[tuple[SelectedEffect, ...]]:
-    """Names with a spring between links in the place of all that follows its joint's angle, or has no name there.
-
-    A curve of the angle and what it misses of a spring, told as an unknown, hold each other up: without either the
-    other is worth more than a spring beside it.
-
-    Args:
-        layout: of the columns.
-        chosen: what has a name.
-
-    Returns:
-        Of each joint with such a curve.
-    """
-    found = []
-    for number, spring in enumerate(layout.placed):
-        if spring.variant != BETWEEN_LINKS or number in {effect.candidate for effect in chosen}:
-            continue
-        at = {effect: layout.placed[effect.candidate] for effect in chosen}
-        curves = [effect for effect in chosen if _follows_angle(at[effect], spring.joints)]
-        if curves:
-            nameless = [effect for effect in chosen if _nameless(at[effect], spring.joints)]
-            others = (effect for effect in chosen if effect not in curves and effect not in nameless)
-            found.append((*others, replace(curves[0], candidate=number)))
-    return found
 
 
 def _starts(judged: _Judged, middle: float) -> list[Mount]:
@@ -117,11 +87,6 @@ def _finest(judged: _Judged, start: Mount, middle: float) -> tuple[Mount, float]
 def _follows_angle(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
     """Whether a cause is a spring or a cable of one joint."""
     return placed.joints == joints and placed.cause in (catalogue.BALANCER, catalogue.CABLE)
-
-
-def _nameless(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
-    """Whether it is something of one joint that has no name."""
-    return placed.joints == joints and placed.cause.nameless
 
 
 def _possible(ratio: float) -> float:

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress
-from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import ModelSpace
 from armscope.inference.normal_equations import NormalEquations, total
@@ -18,7 +17,6 @@ from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.gains import gain_of, meeting_gain
-from armscope.motion.fitting.linkages import springs_alone
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -150,8 +148,7 @@ def chosen(
         best = search.best()
     else:
         found, effects = before
-        starts = [effects, *springs_alone(rows.layout, effects)]
-        best = max((search.best((), also=search.evaluated(each, found)) for each in starts), key=by_posterior)
+        best = search.best((), also=search.evaluated(effects, found))
     best = _settled(search, named_first(search, best))
     return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
 

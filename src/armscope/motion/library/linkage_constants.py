@@ -17,6 +17,11 @@ class LinkageRules(Constants):
         "of its ends' distances from the axis that are tried",
         "judgement: below these it is a sine, above them its ends all but meet",
     )
+    much: float = constant(
+        1e-4,
+        "of what a spring explains that has no name, below which it stays where it is",
+        "measured: with a hundredth, two of eight planted gas springs stayed where the first scan put them, as cables",
+    )
     growth: float = constant(
         0.3,
         "of its force by which that may change along its stroke, RMS",
