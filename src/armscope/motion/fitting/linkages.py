@@ -49,7 +49,7 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
         return placed, True
     (so_far,) = judged.nats([(phase, ratio)], middle)
     best, nats = max((_finest(judged, start, middle) for start in _starts(judged, middle)), key=lambda found: found[1])
-    rests = NOISE.settled if number in selected.best.candidates else LINKAGE.much * nats
+    rests = NOISE.settled if number in selected.best.candidates else min(LINKAGE.much * nats, LINKAGE.moved_nats)
     if nats < so_far + rests:
         return placed, True
     law = replace(placed.columns, numbers=(*best, middle))

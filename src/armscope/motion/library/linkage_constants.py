@@ -22,6 +22,12 @@ class LinkageRules(Constants):
         "of what a spring explains that has no name, below which it stays where it is",
         "measured: with a hundredth, two of eight planted gas springs stayed where the first scan put them, as cables",
     )
+    moved_nats: float = constant(
+        1.0,
+        "beyond which it never stays",
+        "measured: where a spring was hundreds of times the noise, a ten thousandth of what it explains was its name",
+        unit="nats",
+    )
     growth: float = constant(
         0.3,
         "of its force by which that may change along its stroke, RMS",
