@@ -9,7 +9,7 @@ from benchmarks.motion_springs import SPRINGS, World, said
 
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.motion.fitting.linkages import remounted
+from armscope.motion.fitting.linkages import _Judged, mount_unsure, remounted
 from armscope.motion.library import catalogue
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
@@ -57,6 +57,27 @@ def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> No
     apart = numbers["phase"] - (spring.between - MIDDLE[world.joint])
     assert np.sin(apart) == pytest.approx(0, abs=0.05)
     assert np.cos(apart) > 0
+
+
+def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
+    """Whatever is fitted beside it: by the mounts one standard deviation away either way, along both axes."""
+    world, spring = World("over", 4, 1), SPRINGS["over"]
+    found = diagnosed(world)
+    selected = found.selected
+    (number,) = selected.best.candidates
+    placed = selected.rows.layout.placed[number]
+    *mount, middle = placed.columns.numbers
+    covariance, _ = mount_unsure(selected, number)
+    judged = _Judged(selected, placed.joints[0], [number])
+    (best,) = judged.nats([mount], middle)
+    for size, axis in zip(*np.linalg.eigh(covariance), strict=True):
+        away = np.sqrt(size) * axis
+        lost = best - judged.nats([mount + away, mount - away], middle).mean()
+        assert lost == pytest.approx(0.5, rel=0.3)
+    told = {each.name: each for each in found.verdict.effects[0].parameters}
+    true = {"phase": spring.between - MIDDLE[world.joint], "ratio": spring.behind / spring.before}
+    for name, value in true.items():
+        assert abs(told[name].value - value) < 3 * told[name].stderr < 0.3
 
 
 @pytest.mark.parametrize("kind", ["taut", "harness", "end"])

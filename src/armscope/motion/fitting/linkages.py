@@ -56,6 +56,35 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
     return replace(placed, columns=law, scanned=(("phase", "rad", best[0]), ("ratio", "", best[1]))), False
 
 
+def mount_unsure(selected: SelectedCauses, number: int) -> tuple[Array, Array]:
+    """How far the mount of a chosen spring is known, and how its numbers go with it.
+
+    Gauss-Newton at the mount: a spring that is mounted a little otherwise and pushes more hardly pulls otherwise.
+
+    Args:
+        selected: the selection.
+        number: of the spring.
+
+    Returns:
+        (2, 2) covariance of phase, rad, and ratio; (2, 2) change of force and growth with either.
+    """
+    placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
+    assert isinstance(placed.columns, Law)
+    *mount, middle = placed.columns.numbers
+    judged, numbers = _Judged(selected, placed.joints[0], [number]), selected.coefficients[columns]
+
+    def lever(phase: float, ratio: float) -> Array:
+        return np.asarray(judged.root[:, None] * pull(judged.angle + phase, ratio, middle + phase))
+
+    steps = LINKAGE.settled * np.eye(2)
+    by_mount = [(lever(*(mount + h)) - lever(*(mount - h))) @ numbers / (2 * LINKAGE.settled) for h in steps]
+    X = np.column_stack([lever(*mount), *by_mount])
+    absorbed = judged.absorbed @ X
+    anywhere = np.array([np.pi, LINKAGE.largest_ratio]) ** -2.0
+    S = X.T @ X - absorbed.T @ absorbed + np.diag(np.r_[judged.prior, judged.prior, anywhere])
+    return np.linalg.inv(S)[2:, 2:], -np.linalg.solve(S[:2, :2], S[:2, 2:])
+
+
 def _starts(judged: _Judged, middle: float) -> list[Mount]:
     """The best of a coarse scan in each sector of the turn: what suits nearly as well may lie far from what suits."""
     step = 2 * np.pi / LINKAGE.phases

@@ -21,10 +21,12 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.search import Search
 from armscope.motion.constants import PRIOR, TELLING
+from armscope.motion.fitting.linkages import mount_unsure
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.summary.constants import INTERVALS
 from armscope.motion.summary.unnamed_masses import by_own_share
 from armscope.verdict.effects import INTERVAL
@@ -134,6 +136,26 @@ def covariance_of(selected: SelectedCauses, number: int, factor: Array) -> Array
         step, unsure = lag_step(selected, number)
         covariance[0, 0] += step**2 + (factor[columns[0]] * unsure) ** 2
     return covariance
+
+
+def errors_of(selected: SelectedCauses, number: int, factor: Array) -> tuple[Array, Array]:
+    """Standard errors of a chosen cause's fitted numbers and of its scanned ones, each with all others free.
+
+    Args:
+        selected: the selection.
+        number: of the cause.
+        factor: (p,) on the standard error of every column.
+
+    Returns:
+        (c,) and (s,), SI; NaN of what was scanned, but for the mount of a spring.
+    """
+    placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
+    variance, of_scanned = np.diag(covariance_of(selected, number, factor)), np.full(len(placed.scanned), np.nan)
+    if placed.variant == BETWEEN_LINKS:
+        mount, follows = mount_unsure(selected, number)
+        by = factor[columns].max() ** 2
+        variance, of_scanned = variance + by * np.diag(follows @ mount @ follows.T), np.sqrt(by * np.diag(mount))
+    return np.sqrt(variance), of_scanned
 
 
 def _widened(selected: SelectedCauses, search: Search, rivals: Rivals) -> Array:

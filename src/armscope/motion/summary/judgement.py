@@ -17,7 +17,7 @@ from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.doubts import doubt_of
-from armscope.motion.summary.intervals import Sureness, covariance_of
+from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque
 from armscope.motion.summary.rivals import listed_rivals
 from armscope.motion.summary.words import clause, cure
@@ -104,12 +104,13 @@ def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tu
         Those that were fitted, then those that were scanned, in the units of files.
     """
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
-    values, stderr = selected.coefficients[columns], np.sqrt(np.diag(covariance_of(selected, number, factor)))
+    values, (stderr, of_scanned) = selected.coefficients[columns], errors_of(selected, number, factor)
     told = [
         Parameter(name, unit, float(value), float(error))
         for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
     ]
-    return (*told, *(Parameter(name, unit, value, float("nan")) for name, unit, value in placed.scanned))
+    scanned = zip(placed.scanned, of_scanned, strict=True)
+    return (*told, *(Parameter(name, unit, value, float(error)) for (name, unit, value), error in scanned))
 
 
 def _alternatives(selected: SelectedCauses, sure: Sureness, number: int) -> tuple[Alternative, ...]:
