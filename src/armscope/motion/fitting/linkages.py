@@ -24,6 +24,7 @@ from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import pull, pushes_one_way
 from armscope.motion.library.linkage_constants import LINKAGE
+from armscope.verdict.effects import INTERVAL
 
 Mount = tuple[float, float]
 """Phase, rad, and ratio, as `spring_between_links` takes them."""
@@ -57,16 +58,17 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
 
 
 def mount_unsure(selected: SelectedCauses, number: int) -> tuple[Array, Array]:
-    """How far the mount of a chosen spring is known, and how its numbers go with it.
+    """How far a chosen spring's numbers and its mount are known, each with the other free.
 
-    Gauss-Newton at the mount: a spring that is mounted a little otherwise and pushes more hardly pulls otherwise.
+    By Gauss-Newton at the mount, since a spring that is mounted a little otherwise and pushes more hardly pulls
+    otherwise; and by the farthest of the mounts all over that suit as well: a curve without a bend has many.
 
     Args:
         selected: the selection.
         number: of the spring.
 
     Returns:
-        (2, 2) covariance of phase, rad, and ratio; (2, 2) change of force and growth with either.
+        (2,) variances that the mount adds to those of force and growth; (2,) of phase, rad^2, and ratio.
     """
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
     assert isinstance(placed.columns, Law)
@@ -82,16 +84,27 @@ def mount_unsure(selected: SelectedCauses, number: int) -> tuple[Array, Array]:
     absorbed = judged.absorbed @ X
     anywhere = np.array([np.pi, LINKAGE.largest_ratio]) ** -2.0
     S = X.T @ X - absorbed.T @ absorbed + np.diag(np.r_[judged.prior, judged.prior, anywhere])
-    return np.linalg.inv(S)[2:, 2:], -np.linalg.solve(S[:2, :2], S[:2, 2:])
+    of_mount, follow = np.linalg.inv(S)[2:, 2:], np.linalg.solve(S[:2, :2], S[:2, 2:])
+    near = np.r_[np.diag(follow @ of_mount @ follow.T), np.diag(of_mount)]
+    mounts = [*_all_over(), (mount[0], mount[1])]
+    fitted, nats = judged.fitted(mounts, middle)
+    as_good = np.column_stack([fitted, mounts])[nats > nats[-1] - LINKAGE.as_good_nats]
+    far = np.max(np.abs(as_good - as_good[-1]), axis=0) / INTERVAL
+    variance = np.maximum(near, far**2)
+    return variance[:2], variance[2:]
 
 
 def _starts(judged: _Judged, middle: float) -> list[Mount]:
     """The best of a coarse scan in each sector of the turn: what suits nearly as well may lie far from what suits."""
-    step = 2 * np.pi / LINKAGE.phases
-    tried = [(number * step - np.pi, ratio) for number in range(LINKAGE.phases) for ratio in LINKAGE.ratios]
+    tried = _all_over()
     found = judged.nats(tried, middle).reshape(LINKAGE.sectors, -1)
     order = np.argsort(-found.max(axis=1))[: LINKAGE.starts]
     return [tried[int(sector * found.shape[1] + np.argmax(found[sector]))] for sector in order]
+
+
+def _all_over() -> list[Mount]:
+    step = 2 * np.pi / LINKAGE.phases
+    return [(number * step - np.pi, ratio) for number in range(LINKAGE.phases) for ratio in LINKAGE.ratios]
 
 
 def _finest(judged: _Judged, start: Mount, middle: float) -> tuple[Mount, float]:
@@ -153,9 +166,13 @@ class _Judged:
         self.prior = LINKAGE.usual_torque**-2 / max(float(np.mean(rows.torque[among, joint] ** 2)), 1e-300)
 
     def nats(self, mounts: Sequence[Mount], middle: float) -> Array:
-        """(T,) by which a spring of each mount betters what is left, all else fitted anew.
+        """(T,) by which a spring of each mount betters what is left, all else fitted anew."""
+        return self.fitted(mounts, middle)[1]
 
-        Of one whose force would have to change its sign within the joint's range, by a constant force.
+    def fitted(self, mounts: Sequence[Mount], middle: float) -> tuple[Array, Array]:
+        """Force and growth (T, 2) that suit each mount best, and the nats (T,) that they are worth.
+
+        Where the force would have to change its sign within the joint's range, of a constant one.
         """
         phase, ratio = np.transpose(mounts)
         turned = self.angle[:, None] + phase
@@ -165,6 +182,7 @@ class _Judged:
         S = S + self.prior * np.eye(2)
         v = np.einsum("ntk,n->tk", lever, self.left)
         fitted = np.linalg.solve(S, v[:, :, None])[:, :, 0]
-        constant = v[:, 0] ** 2 / S[:, 0, 0]
+        constant = np.column_stack([v[:, 0] / S[:, 0, 0], np.zeros(len(mounts))])
         sound = pushes_one_way(fitted, turned, ratio, middle + phase)
-        return np.asarray(np.where(sound, np.sum(v * fitted, axis=1), constant) / 2)
+        fitted = np.where(sound[:, None], fitted, constant)
+        return fitted, np.sum(v * fitted, axis=1) / 2

@@ -28,6 +28,7 @@ class LinkageRules(Constants):
         "measured: where a spring was hundreds of times the noise, a ten thousandth of what it explains was its name",
         unit="nats",
     )
+    as_good_nats: float = constant(3.0, "within which mounts are alike", "derived: 95 % of two numbers", unit="nats")
     growth: float = constant(
         0.3,
         "of its force by which that may change along its stroke, RMS",

@@ -152,9 +152,9 @@ def errors_of(selected: SelectedCauses, number: int, factor: Array) -> tuple[Arr
     placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
     variance, of_scanned = np.diag(covariance_of(selected, number, factor)), np.full(len(placed.scanned), np.nan)
     if placed.variant == BETWEEN_LINKS:
-        mount, follows = mount_unsure(selected, number)
+        by_mount, of_mount = mount_unsure(selected, number)
         by = factor[columns].max() ** 2
-        variance, of_scanned = variance + by * np.diag(follows @ mount @ follows.T), np.sqrt(by * np.diag(mount))
+        variance, of_scanned = variance + by * by_mount, np.sqrt(by * of_mount)
     return np.sqrt(variance), of_scanned
 
 
