@@ -103,6 +103,13 @@ def mounted(q: Array) -> Array:
     return 800 * (long(x + step) - long(x - step)) / (2 * step)
 
 
+def coiled(q: Array) -> Array:
+    """A coil spring of 3 N/mm between points 0.4 and 0.05 m from the axis, hardly pre-tensioned where it is shortest."""
+    near, far, x = 0.05, 0.4, q + 1.2
+    long = np.sqrt(near**2 + far**2 - 2 * near * far * np.cos(x))
+    return -3000 * (long - (far - near) + 0.02) * near * far * np.sin(x) / long
+
+
 def between_links(cure: str) -> Torque:
     force, growth, less, phase, squares, twice = told(cure.replace("√(", "√ "), "model: ")
     for words in (") × sin(x) / l, where x is position", "× (l −", "and l = √(", "cos x)."):
@@ -144,6 +151,7 @@ CASES = {
     "spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 5 * (q - 0.4)), spring),
     "counterweight": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 6 * np.sin(q + 0.5)), waves),
     "gas spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: mounted(q)), between_links),
+    "coil spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: coiled(q)), between_links),
     "ripple": Case("torque_ripple", AT, at_joint(lambda q, v, a, T: 2 * np.sin(9 * q + 0.5)), waves),
 }
 

@@ -51,8 +51,9 @@ def pushes_one_way(numbers: Array, angle: Array, ratio: float | Array, middle: f
     Returns:
         (...).
     """
-    stroke = np.max(np.abs(length(angle, ratio) - length(middle, ratio)), axis=0)
-    return np.asarray(np.abs(numbers[..., 1]) * stroke < np.abs(numbers[..., 0]))
+    longer, force, growth = length(angle, ratio) - length(middle, ratio), numbers[..., 0], numbers[..., 1]
+    ends = np.stack([force + growth * longer.min(axis=0), force + growth * longer.max(axis=0)])
+    return np.asarray(np.all(ends * force > 0, axis=0))
 
 
 def spring_between_links(m: Moment, joints: tuple[int, ...], phase: float, ratio: float, middle: float) -> Array:
