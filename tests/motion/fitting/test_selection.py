@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.fitting.selection import starting_weights
+from armscope.motion.fitting.selection import _at_rest, starting_weights
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from tests.motion.cured import JOINT, STATED, Motion, diagnosed
 from tests.motion.moving import Plant, moved, robot
@@ -57,3 +57,19 @@ def test_a_gain_that_bends_next_to_nothing_is_a_gain(bend: float, name: str) -> 
     assert (cause.effect, cause.location) == (name, f"joint {JOINT + 1}")
     if name == "motor_constant":
         assert -0.1 < cause.parameters[0].value < -0.08
+
+
+@pytest.mark.parametrize(
+    ("rounds", "rests"),
+    [
+        ([{1, 2}], False),
+        ([{1}, {1, 2}], False),
+        ([{1}, {1}], True),
+        ([{1}, {1, 2}, {1}], True),
+        ([{1, 2}, {1}, {1, 2}], False),
+        ([{1}, {2}, {1}], False),
+        ([{1}, {1, 2}, {1, 2}], True),
+    ],
+)
+def test_of_names_that_come_and_go_the_fewer_stay(rounds: list[set[int]], rests: bool) -> None:
+    assert _at_rest([frozenset(each) for each in rounds]) == rests

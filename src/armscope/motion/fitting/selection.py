@@ -83,6 +83,7 @@ def select_causes(
     selected: SelectedCauses | None = None
     most, between = NOISE.rounds + NOISE.refinings, Between()
     calm: TorqueWeights | None = None  # of each joint the round that left least of it
+    named: list[frozenset[int]] = []
     for number in range(most):
         share = number / most
         before = None if selected is None else selected.rows
@@ -91,20 +92,31 @@ def select_causes(
         progress("weighing causes", share + 0.15)
         if selected is None:
             space = build_space(layout, np.sqrt(np.mean(rows.torque**2, axis=0)), how.rate)
-            selected, found = chosen(rows, starting_weights(rows), block, space), None
-        else:  # a scanned number that moves changes columns, and nothing of what competes
-            space, found = selected.space, selected.best.candidates
+            selected = chosen(rows, starting_weights(rows), block, space)
+        space = selected.space  # a scanned number that moves changes columns, and nothing of what competes
         last = selected.best, selected.best.chosen
         noise = selected.noise
         noise, calm = noise.not_far_above(calm), noise if calm is None else calm.where_better(noise)
         selected = at_own_gain(chosen(rows, noise, block, space, last, selected))
         finer = refined(selected, between)
-        if finer is None and (selected.best.candidates == found or number + 1 >= NOISE.rounds):
+        named.append(selected.best.candidates)
+        if finer is None and (_at_rest(named) or number + 1 >= NOISE.rounds):
             break
         model = estimated_model(layout, selected.coefficients)
         layout = finer or layout
     assert selected is not None
     return selected
+
+
+def _at_rest(named: Sequence[frozenset[int]]) -> bool:
+    """Whether names stay as they are, or go to and fro and are those of the smaller of two sets now.
+
+    What takes more noise away the more of it has a name, and less the less, has no evidence that a round more would
+    not take back.
+    """
+    if len(named) > 2 and named[-1] == named[-3]:
+        return named[-1] <= named[-2]
+    return len(named) > 1 and named[-1] == named[-2]
 
 
 def at_own_gain(selected: SelectedCauses) -> SelectedCauses:
