@@ -104,7 +104,7 @@ def mounted(q: Array) -> Array:
 
 
 def coiled(q: Array) -> Array:
-    """A coil spring of 3 N/mm between points 0.4 and 0.05 m from the axis, hardly pre-tensioned where it is shortest."""
+    """A coil spring, 3 N/mm, between points 0.4 and 0.05 m from the axis, hardly pre-tensioned where it is shortest."""
     near, far, x = 0.05, 0.4, q + 1.2
     long = np.sqrt(near**2 + far**2 - 2 * near * far * np.cos(x))
     return -3000 * (long - (far - near) + 0.02) * near * far * np.sin(x) / long
