@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
-from benchmarks.motion_own_arms import DOWN, FINE_HZ, SECONDS, Arm, arm_of, moves, waves
+from benchmarks.motion_own_arms import DOWN, FINE_HZ, MIDDLE, SECONDS, Arm, arm_of, moves, waves
 from scipy.interpolate import make_interp_spline
 from scipy.signal import lfilter
 
@@ -70,7 +70,7 @@ KINDS: dict[str, Kind] = {
     "gain": Kind("motor_constant", read=lambda torque, usual: (1 + DEAD) * torque),
     "delay": Kind("torque_delay", read=_late),
     "ripple": Kind("torque_ripple", lambda q, dq, t: np.sin(17 * q)),
-    "spring": Kind("gravity_balance", lambda q, dq, t: q - q.mean() + 0.3),
+    "spring": Kind("gravity_balance", lambda q, dq, t: q + 0.3),
     "dead zone": Kind("unknown", read=lambda x, usual: np.sign(x) * np.maximum(np.abs(x) - DEAD * usual, 0)),
     "cut off": Kind(read=lambda x, usual: np.clip(x, *np.array([-1, 1]) * np.percentile(np.abs(x), 90))),
     "late speed": Kind(columns=("speed",)),
@@ -112,7 +112,7 @@ class World:
 
     def recorded(self) -> pd.DataFrame:
         """motions.csv."""
-        kind, pieces, usual = KINDS[self.label], [], np.zeros(self.n)
+        kind, pieces, usual, size = KINDS[self.label], [], np.zeros(self.n), 0.0
         for run in range(RUNS):
             rng = np.random.default_rng([self.seed, self.n, run, self.by_points])
             motion = (moves if self.by_points else waves)(self.n, rng)
@@ -124,8 +124,10 @@ class World:
             torque = torque + self.arm.friction(motion)
             usual = usual if run else np.sqrt(np.mean(torque**2, axis=0))
             if kind.pull:
-                pulled = kind.pull(motion[0][:, self.joint], motion[1][:, self.joint], warmth)
-                size = STRENGTH * NOISE * usual[self.joint] / np.sqrt(np.mean(pulled**2))
+                away = motion[0][:, self.joint] - MIDDLE[self.joint]
+                pulled = kind.pull(away, motion[1][:, self.joint], warmth)
+                # one arm on all paths: as strong as on the first
+                size = size if run else STRENGTH * NOISE * usual[self.joint] / np.sqrt(np.mean(pulled**2))
                 torque[:, self.joint] += pulled * (kind.size * self.arm.viscous[self.joint] if kind.size else size)
             if self.label == "delay":
                 torque[:, self.joint] = _late(torque[:, self.joint], 0.0)
