@@ -40,14 +40,14 @@ class GasSpring:
 
     def torque(self, away: np.ndarray) -> np.ndarray:
         """(T,) per N, with the joint (T,) rad from the middle of its range: d(length)/d(angle), times force."""
-        turned = away + self.between
+        turned = np.append(away, 0.0) + self.between
         fixed = np.array([self.before, 0.0])
         at = self.behind * np.column_stack([np.cos(turned), np.sin(turned)])
         along = at - fixed
-        length = np.linalg.norm(along, axis=1)
+        *length, usual = np.linalg.norm(along, axis=1)
         across = np.column_stack([-at[:, 1], at[:, 0]])  # how the point moves as the joint turns
-        force = 1 + self.grows * (length - length.mean()) / min(self.before, self.behind)
-        return force * np.sum(along * across, axis=1) / length
+        force = 1 + self.grows * (length - usual) / min(self.before, self.behind)
+        return np.asarray(force * np.sum(along * across, axis=1)[:-1] / length)
 
 
 SPRINGS = {
@@ -55,8 +55,9 @@ SPRINGS = {
     "even": GasSpring(0.40, 0.30, 1.6, 0.2),
     "near": GasSpring(0.35, 0.33, 0.9, 0.1),
     "over": GasSpring(0.50, 0.25, 0.3, 0.05),
+    "coil": GasSpring(0.40, 0.05, 1.2, 0.9),
 }
-"""Gas springs by the geometry that they have; the last passes its dead centre."""
+"""By the geometry that they have; one passes its dead centre, and one is a coil, hardly pre-tensioned."""
 CABLES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "taut": lambda x: np.exp(3.0 * x) - 1,
     "harness": lambda x: 0.4 * x + 4 * x**3,
