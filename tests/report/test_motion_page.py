@@ -66,6 +66,14 @@ def test_the_page_needs_no_network_and_obeys_no_name(page: str) -> None:
     assert "<script" not in page
 
 
+def test_masses_without_a_name_are_no_rest_that_follows_nothing(found: MotionDiagnosis, tmp_path: Path) -> None:
+    verdict = replace(found.verdict, effects=(), masses_share=0.1)
+    for answer, told in (("cannot tell", "masses that are off at all links"), ("nothing missing", "beyond ordinary")):
+        unnamed = replace(found, verdict=replace(verdict, answer=answer), entered=found.entered[:1])
+        page = write_motion_report(unnamed, "motions.csv", tmp_path).read_text(encoding="utf-8")
+        assert f"No place stands out: {told}" in page
+
+
 def test_every_section_and_every_joint_is_there(page: str, found: MotionDiagnosis) -> None:
     for section in MOTION_SECTIONS:
         assert (f'id="{section.name}"' in page) == section.applies(found.verdict)
