@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 import pytest
 from benchmarks.motion_own_arms import MIDDLE
@@ -19,9 +21,12 @@ from armscope.robot.dynamics import build_moving_arm
 from tests.seeds import seeds
 
 
-def diagnosed(world: World) -> MotionDiagnosis:
+@functools.cache
+def asked(kind: str, n: int, seed: int) -> tuple[World, MotionDiagnosis]:
+    """A world on waves, and what is said of it: several tests ask the same one."""
+    world = World(kind, n, seed)
     arm = build_moving_arm(RobotDescription.model_validate(world.arm.robot(stated=world.seed % 2 == 0)))
-    return diagnose_motion(arm, as_motions(world.recorded(), "motions.csv", world.n))
+    return world, diagnose_motion(arm, as_motions(world.recorded(), "motions.csv", world.n))
 
 
 def lost_by_mounting(found: MotionDiagnosis) -> float:
@@ -42,8 +47,7 @@ def lost_by_mounting(found: MotionDiagnosis) -> float:
 @pytest.mark.parametrize("kind", ["even", "near", "over"])
 @pytest.mark.parametrize("seed", seeds(2, 1, 3))
 def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> None:
-    world, spring = World(kind, 3 + seed % 4, seed), SPRINGS[kind]
-    found = diagnosed(world)
+    (world, found), spring = asked(kind, 3 + seed % 4, seed), SPRINGS[kind]
     right, words = said(world, found.verdict)
     assert right, words
     numbers = {each.name: each for each in found.verdict.effects[0].parameters}
@@ -61,8 +65,7 @@ def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> No
 
 def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
     """One standard deviation away either way, with all else fitted and the best of the mount's other number."""
-    world, spring = World("over", 4, 1), SPRINGS["over"]
-    found = diagnosed(world)
+    (world, found), spring = asked("over", 5, 2), SPRINGS["over"]
     selected = found.selected
     (number,) = selected.best.candidates
     placed = selected.rows.layout.placed[number]
@@ -89,13 +92,13 @@ def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
 @pytest.mark.parametrize("kind", ["taut", "harness", "end"])
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
-    world = World(kind, 3 + seed % 4, seed)
-    right, words = said(world, diagnosed(world).verdict)
+    world, found = asked(kind, 3 + seed % 4, seed)
+    right, words = said(world, found.verdict)
     assert right, words
 
 
 def test_where_nothing_follows_the_angle_no_mount_is_looked_for() -> None:
-    found = diagnosed(World("taut", 4, 1))
+    _, found = asked("taut", 4, 1)
     layout = found.selected.rows.layout
     springs = [n for n, cause in enumerate(layout.placed) if cause.variant == BETWEEN_LINKS]
     cables = {
