@@ -31,10 +31,12 @@ if TYPE_CHECKING:
         read_recordings,
         read_robot,
     )
+    from armscope.notebook.notes import PredictionWarning
     from armscope.verdict.files import read_verdict
 
 __all__ = [
     "InputError",
+    "PredictionWarning",
     "calibrate",
     "check",
     "choose_poses",
@@ -53,7 +55,12 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import importlib
 
-    home = {"InputError": "core.inputs", "read_verdict": "verdict.files"}.get(name, "notebook.commands")
+    elsewhere = {
+        "InputError": "core.inputs",
+        "PredictionWarning": "notebook.notes",
+        "read_verdict": "verdict.files",
+    }
+    home = elsewhere.get(name, "notebook.commands")
     return getattr(importlib.import_module(f"{__name__}.{home}"), name)
 
 

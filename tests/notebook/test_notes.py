@@ -6,7 +6,9 @@ import pandas as pd
 import pytest
 
 import armscope
-from armscope.notebook.notes import PredictionWarning, with_notes
+from armscope import PredictionWarning
+from armscope.core.inputs import InputError
+from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "one-effect"
@@ -19,10 +21,33 @@ def test_what_has_no_notes_is_handed_on_in_silence(recwarn: pytest.WarningsRecor
         assert with_notes((3, ["something is left out"])) == 3
 
 
-def test_a_run_that_the_model_does_not_know_is_said() -> None:
+@pytest.fixture(scope="module")
+def one_effect() -> tuple[pd.DataFrame, Diagnosed]:
+    """Recordings of an arm whose second joint gives way, and what is found."""
     recordings = pd.read_csv(EXAMPLE / "recordings.csv").assign(run="monday")
     found = armscope.diagnose(recordings, EXAMPLE / "robot.yaml", resamples=0, cross_validation=False)
     assert isinstance(found, Diagnosed)
+    return recordings, found
+
+
+def test_a_run_that_the_model_does_not_know_is_said(one_effect: tuple[pd.DataFrame, Diagnosed]) -> None:
+    recordings, found = one_effect
     for predict in (found.predict, lambda rows: armscope.predict(found, rows)):
         with pytest.warns(PredictionWarning, match="'tuesday' is not in the model"):
             predict(recordings.assign(run="tuesday"))
+
+
+def test_a_load_that_an_effect_follows_is_never_taken_for_none(one_effect: tuple[pd.DataFrame, Diagnosed]) -> None:
+    """As the command refuses it."""
+    recordings, found = one_effect
+    nothing_stated = recordings.drop(columns="payload_kg")
+    for predict in (found.predict, lambda rows: armscope.predict(found, rows)):
+        with pytest.raises(InputError, match="payload_kg"):
+            predict(nothing_stated)
+    with pytest.warns(PredictionWarning, match="the arm carries nothing"):  # nobody knows what its recordings held
+        armscope.predict(found.model, nothing_stated)
+
+
+def test_orientations_come_from_a_notebook_too(one_effect: tuple[pd.DataFrame, Diagnosed]) -> None:
+    recordings, found = one_effect
+    assert list(armscope.predict(found, recordings, pose=True).columns)[-4:] == ["qw", "qx", "qy", "qz"]

@@ -157,23 +157,22 @@ def _load(model: Path) -> ErrorModel | FittedModel:
 
 def _identified(model: Path, fitted: FittedModel, recordings: Path | None) -> Identified:
     from armscope.check.preconditions import check_table
-    from armscope.compensation.physical import FILE, identified_on, load_identified
+    from armscope.compensation.physical import FILE, identified_beside, identified_on
     from armscope.recordings import read_recordings
 
     if recordings is not None:
         table = read_recordings(recordings, fitted.arm.n_motors)
         return identified_on(fitted.arm, check_table(fitted.arm, table).recordings)
-    beside = model.parent / FILE
-    if not beside.is_file():
+    identified = identified_beside(model)
+    if identified is None:
         raise InputError(
             model, "", f"no {FILE} beside it", "commands outside the identified range are refused: it must be known",
             "Give the recordings of the diagnosis with --recordings.",
         )  # fmt: skip
-    identified = load_identified(beside)
     motors = sum(name.startswith("q") for name in identified.domain.inputs)
     if motors != fitted.arm.n_motors:
         rule = f"the model's arm has {fitted.arm.n_motors}"
-        raise InputError(beside, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")
+        raise InputError(model.parent / FILE, "domain.inputs", f"{motors} motors", rule, "Is it of another diagnosis?")
     return identified
 
 

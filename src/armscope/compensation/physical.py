@@ -121,6 +121,16 @@ def load_identified(path: Path | str) -> Identified:
     )
 
 
+def identified_beside(model: Path) -> Identified | None:
+    """What stands in domain.json beside a model.yaml; None where there is none.
+
+    Raises:
+        InputError: it is none.
+    """
+    beside = model.parent / FILE
+    return load_identified(beside) if beside.is_file() else None
+
+
 def drivers_of(model: FittedModel) -> set[str]:
     """The kinds of drivers that a model's effects follow, nested ones included."""
     products = [product for part in model.everything for term in part.placed.terms for product in term.products]

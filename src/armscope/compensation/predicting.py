@@ -20,6 +20,8 @@ from armscope.robot.urdf_file import is_xml
 if TYPE_CHECKING:
     import pandas as pd  # slow to import, and many a model is refused
 
+    from armscope.compensation.physical import Identified
+
 Found = tuple[Array, Array | None, Recordings, list[str]]
 """Points (N, 3), m, orientations (N, 3, 3), the rows they are of, and what a user should know."""
 
@@ -72,32 +74,46 @@ def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd
 
 def _by_physics(model: Path, poses: Path, pose: bool) -> Found:
     """Points (N, 3), m, and orientations (N, 3, 3) in the measurement frame, and the rows they are of."""
+    from armscope.compensation.physical import identified_beside
+
     fitted = load_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)
-    notes = _refuse_missing_context(model, fitted, rows)
-    notes += notes_on_rows(fitted, rows)
-    return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
+    return _by_model(fitted, rows, identified_beside(model), pose)
 
 
-def notes_on_rows(fitted: FittedModel, rows: Recordings) -> list[str]:
-    """What is told beside a prediction: runs that the model doesn't know, and what follows the order of rows.
+def predict_rows(
+    fitted: FittedModel, rows: Recordings, identified: Identified | None, pose: bool = False
+) -> tuple[pd.DataFrame, list[str]]:
+    """The tool point of some rows by a diagnosed model, in the measurement frame.
 
     Args:
         fitted: the model.
-        rows: of poses.
+        rows: N poses, with whatever context the model follows.
+        identified: what the model's recordings held; None where nobody knows.
+        pose: whether orientations come, too.
 
     Returns:
-        Notes; none where nothing is assumed.
+        As `predict_file`.
+
+    Raises:
+        InputError: context that the model follows and the rows lack.
     """
-    unknown = [
+    points, rotations, _, notes = _by_model(fitted, rows, identified, pose)
+    return points_table(points, rotations, rows), notes
+
+
+def _by_model(fitted: FittedModel, rows: Recordings, identified: Identified | None, pose: bool) -> Found:
+    notes = _refuse_missing_context(fitted, rows, identified)
+    notes += [
         f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
         for run in fitted.unknown_runs(rows)
     ]
-    return [*unknown, *_of_now(fitted, rows)]
+    notes += _of_now(fitted, rows)
+    return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
 
 
 def _of_now(fitted: FittedModel, rows: Recordings) -> list[str]:
-    """Of which rows of its recordings poses are, by ids or without, where a model follows their order."""
+    """What is told where a model follows the order of rows: of which rows poses are, by ids or without."""
     from armscope.compensation.physical import drivers_of
 
     kinds = drivers_of(fitted) & {"after row", "rows", "slow wave of rows"}
@@ -123,21 +139,20 @@ def _are_numbers(rows: Recordings) -> bool:
         return False
 
 
-def _refuse_missing_context(model: Path, fitted: FittedModel, rows: Recordings) -> list[str]:
+def _refuse_missing_context(fitted: FittedModel, rows: Recordings, identified: Identified | None) -> list[str]:
     """What an effect follows must be known in every row: nothing is taken for zero; notes where that is not known.
 
     Raises:
         InputError: it is not.
     """
-    from armscope.compensation.physical import FILE, drivers_of, load_identified, missing_context
+    from armscope.compensation.physical import FILE, drivers_of, missing_context
     from armscope.physics.drivers import KINDS
 
-    beside = model.parent / FILE
-    if not beside.is_file():
+    if identified is None:
         if rows.payload is None and any("payload" in KINDS[kind].follows for kind in drivers_of(fitted)):
             return [f"no payload_kg, and no {FILE} beside the model: the arm carries nothing"]
         return []
-    identified, notes = load_identified(beside), []
+    notes = []
     for column, missing in missing_context(fitted, identified, rows).items():
         if column == "payload_kg" and identified.payload_left_out:
             notes.append(

@@ -21,9 +21,8 @@ from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.error_model_file import load_error_model
 from armscope.compensation.path import WantedPath, as_path, read_path
-from armscope.compensation.physical import FILE as DOMAIN
-from armscope.compensation.physical import identified_on, load_identified
-from armscope.compensation.predicting import notes_on_rows, points_table, predict_file
+from armscope.compensation.physical import Identified, identified_beside, identified_on
+from armscope.compensation.predicting import predict_file, predict_rows
 from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
@@ -34,7 +33,6 @@ from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_mo
 from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
-from armscope.physics.model import predict as predicted_points
 from armscope.physics.model_file import load_model
 from armscope.poses.choose import Choice, choose
 from armscope.recordings import Recordings, as_recordings
@@ -158,7 +156,7 @@ def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
     Args:
         model: a diagnosis, a fitted model, or the path of model.yaml, errormodel.json, robot.yaml or a URDF.
         poses: motor angles and whatever context the model follows.
-        pose: whether orientations come, too (of paths only).
+        pose: whether orientations come, too; not of motions.
 
     Returns:
         id, run, x_mm, y_mm, z_mm; of a motion tau1_nm ....
@@ -176,7 +174,7 @@ def predict(model: Model, poses: Table, pose: bool = False) -> pd.DataFrame:
         return with_notes(predict_file(Path(model), Path(poses), pose))
     fitted = _fitted(model)
     rows = read_recordings(poses, fitted.arm, measured=False)
-    return with_notes((points_table(predicted_points(fitted, rows), None, rows), notes_on_rows(fitted, rows)))
+    return with_notes(predict_rows(fitted, rows, _identified(model), pose))
 
 
 def compensate(
@@ -203,10 +201,8 @@ def compensate(
     fitted = _fitted(model)
     if recordings is not None:
         identified = identified_on(fitted.arm, usable_rows(fitted.arm, read_recordings(recordings)).recordings)
-    elif isinstance(model, Diagnosed):
-        identified = identified_on(fitted.arm, model.recordings)
-    elif isinstance(model, str | Path) and (Path(model).parent / DOMAIN).is_file():
-        identified = load_identified(Path(model).parent / DOMAIN)
+    elif (known := _identified(model)) is not None:
+        identified = known
     else:
         cure = "Give the recordings of the diagnosis."
         raise InputError("recordings", "", "nothing", "the identified range must be known", cure)
@@ -253,6 +249,13 @@ def _fitted(model: Model) -> FittedModel:
     if not isinstance(fitted, FittedModel):
         raise InputError("model", "", type(model).__name__, "a diagnosis, a fitted model or a path")
     return fitted
+
+
+def _identified(model: Model) -> Identified | None:
+    """What the recordings of a model held, where they are known."""
+    if isinstance(model, str | Path):
+        return identified_beside(Path(model))
+    return identified_on(model.model.arm, model.recordings) if isinstance(model, Diagnosed) else None
 
 
 def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:

@@ -8,11 +8,10 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.compensation.physical import FILE, identified_on, save_identified
-from armscope.compensation.predicting import notes_on_rows, points_table
+from armscope.compensation.predicting import predict_rows
 from armscope.core.outputs import Delivery
 from armscope.notebook.html import paragraphs, table
 from armscope.notebook.notes import with_notes
-from armscope.physics.model import predict
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sectioning import figure_named
@@ -89,10 +88,10 @@ class Diagnosed(Diagnosis):
         """Where the tool point will be at other poses, mm, in the measurement frame; notes are warnings.
 
         Raises:
-            InputError: the poses can't be used.
+            InputError: the poses can't be used, or lack what an effect of the model follows.
         """
         motors = self.model.arm.n_motors
         if isinstance(poses, pd.DataFrame):
             poses = as_recordings(poses, "data frame", motors, measured=False)
         rows = poses if isinstance(poses, Recordings) else read_recordings(poses, motors, measured=False)
-        return with_notes((points_table(predict(self.model, rows), None, rows), notes_on_rows(self.model, rows)))
+        return with_notes(predict_rows(self.model, rows, identified_on(self.model.arm, self.recordings)))
