@@ -85,7 +85,7 @@ LARGEST_SMALL = 0.35
 """Share of the squared error left after frames and D-H values that no name may claim where nothing stands out."""
 AS_LARGE = 0.95
 """From which share of the largest cause's strength another may come first: judgement, set after one rough world had two
-rows of geometry off by the same; no rate counts a name right by it that is wrong otherwise."""
+rows of geometry off by the same. That world is right by it and was wrong without: one of sixty fresh ones."""
 TELLABLE_NATS = 20.0
 """From which the oracle itself is sure of a cause: three for a name, some ten for where and how large, and to spare.
 Judgement, set when causes that the oracle has 9.8, 11.7, 27, 135 and 317 nats for were in view: so rates by it stand

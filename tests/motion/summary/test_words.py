@@ -11,7 +11,7 @@ import pytest
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
-from armscope.motion.library.clauses import amount, rms_of
+from armscope.motion.library.clauses import amount, rms_of, run_in_words
 from armscope.motion.library.laws import Law
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
@@ -41,6 +41,13 @@ def test_a_number_stands_with_half_its_interval_in_a_readable_unit() -> None:
     assert amount(Parameter("delay", "s", -0.00079, 0.00005), sign=True) == "−0.790 ± 0.098 ms"
     assert amount(Parameter("square", "N s^2/m^2", -4254.9, 693.8)) == "4255 ± 1360 N s²/m²"
     assert amount(Parameter("per_turn", "", 9.0, float("nan"))) == "9.000"
+
+
+@pytest.mark.parametrize(("name", "told"), [("b", "run b"), ("run 3", "run 3"), ("Run 3", "run 3")])
+def test_a_run_is_told_once_whatever_it_is_called(name: str, told: str) -> None:
+    assert run_in_words(name) == told
+    heavier = cause("payload_error", HEAVIER, title=f"payload error in {run_in_words(name)}")
+    assert clause(heavier).startswith(f"in {told} ")
 
 
 TIMES, HAND = Parameter("times", "", -1.0, 0.1), "the model's hand is not on the arm"

@@ -245,7 +245,7 @@ def nameless_twist(cause: FoundCause, numbers: Numbers) -> str:
 
 
 def run_in_words(name: str) -> str:
-    """A run in a sentence, where many call theirs "run 1" and others "1".
+    """A run in a sentence, where many call theirs "run 1", others "Run 1" or "1".
 
     Args:
         name: as the table has it.
@@ -253,4 +253,4 @@ def run_in_words(name: str) -> str:
     Returns:
         It, after the word "run".
     """
-    return name if name.lower().startswith("run ") else f"run {name}"
+    return f"run {name[4:] if name.lower().startswith('run ') else name}"

@@ -25,7 +25,8 @@ class LinkageRules(Constants):
     moved_nats: float = constant(
         1.0,
         "beyond which it never stays",
-        "measured: where a spring was hundreds of times the noise, a ten thousandth of what it explains was its name",
+        "judgement: three to one; set with planted gas springs hundreds of times the noise in view, of which a ten "
+        "thousandth of what they explain was the name, and with the Panda, whose verdict three nats changed",
         unit="nats",
     )
     as_good_nats: float = constant(3.0, "within which mounts are alike", "derived: 95 % of two numbers", unit="nats")
@@ -41,7 +42,9 @@ class LinkageRules(Constants):
     between: float = constant(0.08, "two ratios that are tried", "derived: the first scan's step")
     rows: int = constant(2000, "at which mounts are tried, at most", "judgement: time; curves of the angle need few")
     settled: float = constant(
-        1e-4, "rad, of the ratio, and nats, by which a mount still moves", "judgement: less than any rows bear"
+        1e-4,
+        "rad, of the ratio, and nats, by which a mount still moves; steps of its slopes",
+        "judgement: less than any rows bear",
     )
     usual_torque: float = constant(
         3.0, "of the joint's torque, that a spring's may be", "judgement: wide; springs hold what gravity asks for"
