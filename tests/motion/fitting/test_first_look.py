@@ -11,8 +11,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting import first_look as room
 from armscope.motion.fitting.first_look import counts_shown, first_look
-from armscope.motion.library.laws import wave
-from armscope.motion.samples.preparation import Signals, preparation
+from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import Stretch, stretches
 from tests.motion.moving import moved, robot
 
@@ -45,12 +44,3 @@ def test_what_the_low_pass_takes_off_is_not_looked_for(longest: Stretch) -> None
     assert all(few[-1] + 1 == many[0] for few, many in both)
     standing = dataclasses.replace(longest, q=np.zeros_like(longest.q))
     assert not any(len(counts) for counts in counts_shown(standing, HOW, 1))
-
-
-def test_a_wave_that_samples_do_not_show_is_none() -> None:
-    time = np.arange(400) / 200.0
-    q, none = np.column_stack([time**2]), np.zeros((400, 1))
-    signals = Signals("", 0, time, q, 2 * time[:, None], none, none, None, None, np.arange(400))
-    shown = 300 * 2 * time / (2 * np.pi) < 100.0
-    made = wave(signals, 0, 300.0)
-    np.testing.assert_allclose(np.hypot(*made.T), shown)

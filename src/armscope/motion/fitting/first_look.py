@@ -15,8 +15,9 @@ from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import estimated_model
 from armscope.motion.fitting.weights import fitted_together
-from armscope.motion.library.laws import wave
 from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.waves import successive_waves
+from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
@@ -101,11 +102,10 @@ def _waves(
     explained = np.zeros(len(counts))
     turned = list(parts([stretch], how))
     for some in np.array_split(np.arange(len(counts)), -(-len(counts) // LIBRARY.waves_at_once)):
-        waves = _formed(turned, how, j, counts[some])
-        for number, formed in zip(some, np.swapaxes(waves[moving], 0, 1), strict=True):
-            alone = formed - basis @ (basis.T @ formed)
-            if number < len(slow) or np.sum(alone**2) > LIBRARY.wave_left * len(alone):
-                explained[number] = (alone.T @ own) @ np.linalg.lstsq(alone, own, rcond=None)[0]
+        formed = _formed(turned, how, j, counts[some])[moving].reshape(len(own), -1)
+        alone = formed - basis @ (basis.T @ formed)
+        explained[some], squares = _explained_by_pairs(alone, own)
+        explained[some[(some >= len(slow)) & (squares <= LIBRARY.wave_left * len(own))]] = 0.0
     best = _peaks(explained[: len(slow)])[: LIBRARY.waves_kept]
     standing_out = len(slow) + np.flatnonzero(explained[len(slow) :] > LIBRARY.most_of_the_rest * float(own @ own))
     if len(standing_out):
@@ -113,9 +113,18 @@ def _waves(
     if not len(best):
         return ((), len(counts)), np.zeros(len(left))
     best = np.sort(best)
-    kept = _formed(turned, how, j, counts[best]).reshape(len(left), -1)
+    kept = np.hstack([_formed(turned, how, j, counts[[each]])[:, 0] for each in best])
     found = tuple(int(n) for n in counts[best]), len(counts) if len(standing_out) else len(slow)
     return found, kept @ np.linalg.lstsq(kept[moving], left[moving], rcond=None)[0]
+
+
+def _explained_by_pairs(columns: Array, left: Array) -> tuple[Array, Array]:
+    """Of what is left (K,) the squares that each pair of neighbouring columns (K, 2 c) explains, and its own; (c,)."""
+    pairs = columns.reshape(len(left), -1, 2)
+    G = np.einsum("kcx,kcy->cxy", pairs, pairs, optimize=True)
+    b = (columns.T @ left).reshape(-1, 2)
+    explained = np.einsum("cx,cxy,cy->c", b, np.linalg.pinv(G, rcond=FILTER.rounding, hermitian=True), b)
+    return explained, np.trace(G, axis1=1, axis2=2)
 
 
 def _peaks(explained: Array) -> Indices:
@@ -151,9 +160,7 @@ def counts_shown(stretch: Stretch, how: Preparation, j: int) -> tuple[NDArray[np
 
 
 def _formed(turned: Sequence[Signals], how: Preparation, j: int, counts: NDArray[np.int_]) -> Array:
-    """(K, counts, 2) sine and cosine of a joint's angle times each count, as rows."""
-    made = []
-    for signals in turned:
-        waves = np.stack([wave(signals, j, float(count)) for count in counts], axis=1)
-        made.append(how.low_passed(waves, signals.kept, signals.stride))
+    """(K, counts, 2) waves of a joint's angle of successive counts, as rows."""
+    first, number = int(counts[0]), len(counts)
+    made = [how.low_passed(successive_waves(each, j, first, number), each.kept, each.stride) for each in turned]
     return np.concatenate(made)

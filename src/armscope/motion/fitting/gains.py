@@ -7,7 +7,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.weights import weighed
+from armscope.motion.fitting.sums import together
 from armscope.motion.library.layout import TorqueLayout
 
 
@@ -37,21 +37,37 @@ def _slopes(selected: SelectedCauses) -> Array:
     More of the true torque T of a joint in its columns is less of it left to fit: the fit moves by
     (X' X + prior)^-1 (T' residual - X' T c) per share.
     """
-    rows, best, scale = selected.rows, selected.best, selected.problem.scale
+    rows, best, weights = selected.rows, selected.best, selected.weights
     layout, found = rows.layout, np.zeros((len(rows.gain),) * 2)
     scaling = [(joint, column) for joint, column in layout.scaling if column in best.columns]
     if not scaling:
         return found
     true = ~np.isin(best.columns, layout.of_readings)
-    parts = [part for block in selected.by_joint for part in block]
     for joint in sorted({joint for joint, _ in scaling}):
-        sums = weighed(rows, [part for part in parts if part.joint == joint], selected.weights).scaled(scale)
-        G, b = sums.G[np.ix_(best.columns, best.columns)], sums.b[best.columns]
+        G, b = _sums_of(selected, joint)
         pull = true * (b - G @ best.mean) - G @ (true * best.mean)
-        moved = best.inverse.T @ (best.inverse @ pull) / rows.gain[joint] / scale[best.columns]
+        pull *= (PRIOR.unit / weights.sigma[joint]) ** 2 / weights.correlated[joint]
+        moved = best.inverse.T @ (best.inverse @ pull) / rows.gain[joint] / selected.problem.scale[best.columns]
         for other, column in scaling:
             found[other, joint] += moved[best.at(np.array([column]))[0]]
     return found
+
+
+def _sums_of(selected: SelectedCauses, joint: int) -> tuple[Array, Array]:
+    """(C, C) and (C,) sums over one joint's rows of the columns that the best hypothesis uses, unit by unit."""
+    rows, columns = selected.rows, selected.best.columns
+    made, at = rows.layout.made_of_masses[0], rows.at[joint]
+    combined = np.flatnonzero(np.isin(columns, made))
+    order = [int(np.flatnonzero(made == column)[0]) for column in columns[combined]]
+    plain = (at[:, None] == columns).astype(np.float64)
+    G, b = np.zeros((len(columns),) * 2), np.zeros(len(columns))
+    for part in together([part for block in selected.by_joint for part in block if part.joint == joint]):
+        used = plain.copy()
+        used[np.ix_(np.searchsorted(at, rows.layout.inertial), combined)] += rows.layout.shares_in(part.run)[:, order]
+        used *= rows.gain_of_columns(joint)[:, None] / selected.problem.scale[columns]
+        G += used.T @ part.sums.G @ used
+        b += part.sums.b @ used
+    return G, b
 
 
 def _that_a_drive_has(gain: Array) -> Array:

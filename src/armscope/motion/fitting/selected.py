@@ -14,7 +14,7 @@ from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.sums import JointSums
-from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_elsewhere
+from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_elsewhere, weighed
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,18 +23,22 @@ class SelectedCauses:
 
     Attributes:
         rows, weights: the rows, and how much they count.
-        block: (K,) number of each row's block; blocks: their sums; by_joint: the same by joint, whatever its noise.
+        block: (K,) number of each row's block; by_joint: their sums by joint, whatever its noise.
         space, problem, best: what competed, on which sums, and what won.
     """
 
     rows: MotionRows
     weights: TorqueWeights
     block: Indices
-    blocks: list[NormalEquations]
     by_joint: list[list[JointSums]]
     space: ModelSpace
     problem: Problem
     best: Hypothesis
+
+    @functools.cached_property
+    def blocks(self) -> list[NormalEquations]:
+        """Sums over each block, of all joints by their noise."""
+        return [weighed(self.rows, parts, self.weights) for parts in self.by_joint]
 
     @functools.cached_property
     def coefficients(self) -> Array:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from armscope.core.types import Array, Indices, Progress
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import ModelSpace
-from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
@@ -22,7 +21,7 @@ from armscope.motion.fitting.refining import refined
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.space import build_space
-from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint
+from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint, together
 from armscope.motion.fitting.torque_delay import Between
 from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_inside_and_apart, weighed
 from armscope.motion.library import catalogue
@@ -154,31 +153,31 @@ def chosen(
     Returns:
         What won.
     """
-    by_joint, blocks, problem = _summed(rows, weights, block, space, earlier)
+    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
+    by_joint = sums_by_joint(rows, weights.row, block, known)
+    problem = _problem(rows, weights, space, by_joint)
     search = Search.on(problem)
     if before is None:
         best = search.best()
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = _settled(search, named_first(search, best))
-    return SelectedCauses(rows, weights, block, blocks, by_joint, space, problem, best)
+    best = settled(search, named_first(search, best))
+    return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
 
 def weighed_anew(rows: MotionRows, earlier: SelectedCauses) -> SelectedCauses:
-    """A selection's effects, none else, on the same rows whose columns may be other functions."""
-    by_joint, blocks, problem = _summed(rows, earlier.weights, earlier.block, earlier.space, earlier)
+    """A selection's effects, none else, on the same rows and columns, recorded by other gains."""
+    problem = _problem(rows, earlier.weights, earlier.space, earlier.by_joint)
     best = Search.on(problem).evaluated(earlier.best.chosen, earlier.best)
-    return SelectedCauses(rows, earlier.weights, earlier.block, blocks, by_joint, earlier.space, problem, best)
+    return SelectedCauses(rows, earlier.weights, earlier.block, earlier.by_joint, earlier.space, problem, best)
 
 
-def _summed(
-    rows: MotionRows, weights: TorqueWeights, block: Indices, space: ModelSpace, earlier: SelectedCauses | None
-) -> tuple[list[list[JointSums]], list[NormalEquations], Problem]:
-    known = None if earlier is None else Earlier(earlier.rows, earlier.weights.row, earlier.by_joint)
-    by_joint = sums_by_joint(rows, weights.row, block, known)
-    blocks = [weighed(rows, parts, weights) for parts in by_joint]
-    return by_joint, blocks, build_problem(space, total(blocks), least_noise=0.5 * PRIOR.unit)
+def _problem(
+    rows: MotionRows, weights: TorqueWeights, space: ModelSpace, by_joint: Sequence[Sequence[JointSums]]
+) -> Problem:
+    sums = weighed(rows, together([part for block in by_joint for part in block]), weights)
+    return build_problem(space, sums, least_noise=0.5 * PRIOR.unit)
 
 
 def starting_weights(rows: MotionRows) -> TorqueWeights:
@@ -211,8 +210,8 @@ def blocks_of(rows: NDArray[np.str_], runs: Sequence[str]) -> Indices:
     return np.minimum(np.arange(len(rows)) * NOISE.blocks_of_time // len(rows), NOISE.blocks_of_time - 1)
 
 
-def _settled(search: Search, best: Hypothesis) -> Hypothesis:
-    """Without what is not worth its price beside the others."""
+def settled(search: Search, best: Hypothesis) -> Hypothesis:
+    """A hypothesis without what is not worth its price beside the others."""
     while (weak := search.weakest(best)) is not None:
         best = search.without(best, [weak.candidate])
     return best

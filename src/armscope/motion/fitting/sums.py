@@ -6,13 +6,13 @@ From round to round few rows count otherwise and few columns are other functions
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.normal_equations import NormalEquations, total
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.rows import MotionRows
 
@@ -80,6 +80,14 @@ def sums_by_joint(
                 found[number, run, j] = JointSums(j, run, rows.at[j], sums)
     pairs = [[(n, run, j) for run, _ in parts for j in range(row.shape[1])] for n, parts in enumerate(members)]
     return [[found[each] for each in own] for own in pairs]
+
+
+def together(parts: Sequence[JointSums]) -> list[JointSums]:
+    """The parts of several blocks as those of one."""
+    alike: dict[tuple[str, int], list[JointSums]] = {}
+    for part in parts:
+        alike.setdefault((part.run, part.joint), []).append(part)
+    return [replace(same[0], sums=total([part.sums for part in same])) for same in alike.values()]
 
 
 class _Joint:

@@ -18,7 +18,8 @@ from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.sides import side
-from armscope.motion.samples.preparation import Signals, without_lag
+from armscope.motion.library.waves import wave
+from armscope.motion.samples.preparation import without_lag
 
 
 @dataclass(frozen=True)
@@ -159,24 +160,6 @@ def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Arra
     smooth, time = without_lag(torque, cutoff, m.rate, int(np.ceil(m.rate / cutoff))), m.signals.time
     path = make_interp_spline(time, smooth, k=5)
     return smooth, path.derivative(1)(time), path.derivative(2)(time)
-
-
-def wave(signals: Signals, joint: int, count: float) -> Array:
-    """Sine and cosine of a joint's angle times a count, where samples show them.
-
-    A wave that passes faster than half the samples' rate would come back as a slow one, which the torque has not.
-
-    Args:
-        signals: N samples.
-        joint: from 0.
-        count: waves per turn.
-
-    Returns:
-        (N, 2).
-    """
-    turned = count * signals.q[:, joint]
-    shown = count * np.abs(signals.dq[:, joint]) * signals.period < np.pi
-    return np.column_stack([np.sin(turned), np.cos(turned)]) * shown[:, None]
 
 
 def _wave(m: Moment, joints: tuple[int, ...], count: float) -> Array:

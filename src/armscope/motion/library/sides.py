@@ -17,9 +17,13 @@ def side(signals: Signals, width: Array) -> Array:
     the width within less than a sample, and where it did so is what the torque holds.
     """
     low, high = signals.dq - signals.ddq * signals.period / 2, signals.dq + signals.ddq * signals.period / 2
+    found, width = np.sign(signals.dq), np.broadcast_to(width, signals.dq.shape)
+    near = np.nonzero((np.minimum(np.abs(low), np.abs(high)) / width < FILTER.one_side) | (low * high <= 0))
+    low, high, width = low[near], high[near], width[near]  # elsewhere it is 1 to all digits
     across = np.abs(high - low) > FILTER.alike * width
     mean = (_log_cosh(high / width) - _log_cosh(low / width)) * width / np.where(across, high - low, 1.0)
-    return np.asarray(np.where(across, mean, np.tanh(signals.dq / width)))
+    found[near] = np.where(across, mean, np.tanh(signals.dq[near] / width))
+    return np.asarray(found)
 
 
 def _log_cosh(x: Array) -> Array:

@@ -104,6 +104,12 @@ class FilterRules(Constants):
         "more sharply still, where torque is predicted: fits leave joints out that stand, predictions begin with them",
         "judgement: above what positions' steps make of a speed at rest",
     )
+    one_side: float = constant(
+        20.0,
+        "from rest, beyond which friction's side is 1 to all digits",
+        "derived: it differs by twice e to the power of -40",
+        unit="widths",
+    )
     alike: float = constant(
         1e-3,
         "change of speed within a sample below which friction's mean over it is that in its middle",
