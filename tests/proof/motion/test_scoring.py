@@ -43,6 +43,15 @@ def test_sealed_alternatives_are_right_and_other_names_are_not(answer, exact, ou
     assert only(tables, "effects")["outcome"] == outcome
 
 
+@pytest.mark.parametrize("named", [True, False])
+def test_what_another_concealed_cause_says_as_well_is_right_named_or_not(named):
+    concealed = [effect(), effect("cable_torque", "joint 2")]
+    for minor, exact in ((True, True), (False, named)):
+        concealed[0]["minor"] = minor
+        answers = [said("cable_torque", "joint 2"), *([said()] if named else [])]
+        assert only(score([world(concealed, answers)]))["exact"] == exact
+
+
 def test_a_name_too_many_or_an_unknown_beside_it_is_not_exact():
     assert not only(score([world([effect()], [said(), said("rotor_inertia", "joint 1")])]))["exact"]
     assert not only(score([world([effect()], [said()], unknown_at="joint 1")]))["exact"]

@@ -85,7 +85,7 @@ def test_a_world_of_links_is_as_strong_as_asked_for_and_can_be_told(kind):
     angle = world.arm.session.angle[world.recorded.rows]
     apart = (world.recorded.links - angle - world.zeros)[train]
     assert apart[:, joint].std() == pytest.approx(np.hypot(5.0, 1.0) * NOISE_RAD, rel=0.05)
-    assert world.alternatives == [[]]
+    assert [each.alternatives for each in world.standings] == [[]]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -89,17 +89,28 @@ def test_ruled_joints_move_one_way_or_hardly_at_all_and_stay_within_their_limits
 def test_an_offset_and_dry_friction_of_a_joint_that_moves_one_way_are_rivals():
     ruled = {"arm": "six-axis", "rule": "one_way", "joint": 3, "stated": True}
     one_way = make(spec(("torque_offset", 5.0, "joint 4"), **ruled), FOLDER)
-    assert ("coulomb_friction", "joint 4") in names(one_way.alternatives[0])
+    assert ("coulomb_friction", "joint 4") in names(one_way.standings[0].alternatives)
     free = make(spec(("torque_offset", 5.0, "joint 4"), arm="six-axis", stated=True), FOLDER)
-    assert ("coulomb_friction", "joint 4") not in names(free.alternatives[0])
+    assert ("coulomb_friction", "joint 4") not in names(free.standings[0].alternatives)
 
 
 def test_a_rotor_and_the_inertia_of_the_first_link_about_the_same_axis_are_rivals():
     """Joint 1 stands upright: link 1 only turns about its axis, so nothing tells its inertia from the rotor's."""
     world = make(spec(("rotor_inertia", 5.0, "joint 1"), arm="six-axis", stated=True), FOLDER)
-    assert ("link_inertia", "link 1") in names(world.alternatives[0])
-    assert ("rotor_inertia", "joint 2") not in names(world.alternatives[0])
-    assert all(each.gap_nats < ALTERNATIVE_NATS for each in world.alternatives[0])
+    assert ("link_inertia", "link 1") in names(world.standings[0].alternatives)
+    assert ("rotor_inertia", "joint 2") not in names(world.standings[0].alternatives)
+    assert all(each.gap_nats < ALTERNATIVE_NATS for each in world.standings[0].alternatives)
+
+
+@pytest.mark.parametrize(
+    ("beside", "said"), [(("cable_torque", "joint 2"), True), (("cable_torque", "joint 1"), False), (None, False)]
+)
+def test_an_offset_is_said_by_the_name_of_a_cable_at_the_same_joint_and_by_none_elsewhere(beside, said):
+    """A cable is any curve of its joint's angle; by the cable's own exact curve the offset would still stand out."""
+    concealed = [("torque_offset", 5.0, "joint 2"), *([(beside[0], 5.0, beside[1])] if beside else [])]
+    offset, *others = make(spec(*concealed, stated=True), FOLDER).standings
+    assert offset.is_said_by_others == said
+    assert not any(each.is_said_by_others for each in others)
 
 
 def test_what_friction_takes_up_has_no_size():

@@ -1,8 +1,9 @@
 """Answers about moving worlds against truths: tables of cases, rates with exact intervals, aims.
 
 Names are right, acceptable or wrong, and worlds exact, as `armscope.proof.definitions` has them for positions. Beyond
-that: a clean world is silent if nothing is named and nothing called unknown; ordinary friction and rotors, which every
-arm has, and zeros of links' encoders are no names, but their intervals count where nothing is concealed at their joint;
+that: a cause that the name of another concealed one says as well need not be named, and is no wrong name; a clean
+world is silent if nothing is named and nothing called unknown; ordinary friction and rotors, which every arm has, and
+zeros of links' encoders are no names, but their intervals count where nothing is concealed at their joint;
 the held-out ratio is the RMS of measured minus predicted torque on a path nobody has seen, each joint in units of what
 the truth itself leaves there (noise, and what the drives' filter rounds off). Where a joint stands its friction is
 whatever holds it, within a band, and no motion predicts it: `held_out_moving` is the same ratio without those
@@ -56,9 +57,9 @@ def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
         truth, claims = world.truth, world.answer.claims
         matches, left = match(truth.effects, claims)
         common: Row = {"world": truth.world, "category": truth.category, "arm": truth.arm, "fresh": truth.fresh}
-        common["weakest"] = min((effect.strength for effect in truth.effects), default=float("nan"))
+        common["weakest"] = min((each.strength for each in truth.effects if not each.minor), default=float("nan"))
         rows["worlds"].append(common | _world(world, matches, left))
-        rows["effects"] += [common | effect_row(found, claims) for found in matches]
+        rows["effects"] += [common | effect_row(found, claims) for found in matches if _is_asked_for(found)]
         rows["names"] += [
             common | name_row(truth.effects, claim, claim not in left) for claim in claims if claim.effect != UNKNOWN
         ]
@@ -68,6 +69,7 @@ def score(worlds: Iterable[MotionWorld]) -> dict[str, pd.DataFrame]:
 
 def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) -> Row:
     truth, answer = world.truth, world.answer
+    missed = [found for found in matches if not found.right and _is_asked_for(found)]
     outside = ""
     if truth.outside:
         outside = "failed" if answer.failed else outside_outcome(matches, left, bool(answer.claims))
@@ -79,8 +81,8 @@ def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) ->
         "answer": answer.answer,
         "mismatch": answer.mismatch,
         "silent": not answer.failed and not answer.claims,
-        "exact": not answer.failed and not left and all(found.right for found in matches),
-        "missed": sum(not found.right for found in matches),
+        "exact": not answer.failed and not left and not missed,
+        "missed": len(missed),
         "wrong_names": sum(claim.effect != UNKNOWN for claim in left),
         "outside": outside,
         "outside_right": outside in ("located", "acceptable") if truth.outside else None,
@@ -89,6 +91,11 @@ def _world(world: MotionWorld, matches: list[Match], left: list[NamedEffect]) ->
         "failed": answer.failed,
         "not_predicted": answer.not_predicted,
     }
+
+
+def _is_asked_for(found: Match) -> bool:
+    """Whether anybody could be asked to name a cause: it was named, or no other concealed one's name says it, too."""
+    return found.right or not found.truth.minor
 
 
 def held_out_ratio(truth: MotionTruth, answer: MotionAnswer, while_moving: bool = False) -> float:

@@ -6,11 +6,12 @@
               where a joint stands, and its friction may be anything within its band)
 
 truth.yaml: `effects` (effect, location, parameters, `strength` = RMS torque over noise at the joint where it is
-largest, `rms_nm` there, `rms_rad` of a link beside its motor, `alternatives` that are as good on these paths, by
-evidence), `background` (the arm's own friction and rotors, which robot.yaml may or may not state), `noise_nm` per
-joint, `left_on_test_nm` per joint: what the truth itself leaves on the held-out path (noise, and what the drives'
-filter rounds off), and `left_moving_nm`, the same where the joint moves; `zeros_rad` of links' encoders beside their
-motors', none where links have none; `scoring`: category, seed, circumstances.
+largest, `rms_nm` there, `rms_rad` of a link beside its motor, `minor` where the other causes' names say it as well,
+`alternatives` that are as good on these paths, by evidence), `background` (the arm's own friction and rotors, which
+robot.yaml may or may not state), `noise_nm` per joint, `left_on_test_nm` per joint: what the truth itself leaves on the
+held-out path (noise, and what the drives' filter rounds off), and `left_moving_nm`, the same where the joint moves;
+`zeros_rad` of links' encoders beside their motors', none where links have none; `scoring`: category, seed,
+circumstances.
 """
 
 from __future__ import annotations
@@ -32,10 +33,9 @@ from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
 from armscope.world.motion.links import read_links
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
-from armscope.world.motion.rivals import alternatives
+from armscope.world.motion.rivals import Standing, standings
 from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleEffect, Sized, VirtualArm, ordinary, place
-from armscope.world.rivals import Alternative
 
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
 QUIETEST = 0.002
@@ -59,7 +59,7 @@ class World:
     spec: MotionSpec
     arm: VirtualArm
     concealed: list[Sized]
-    alternatives: list[list[Alternative]]
+    standings: list[Standing]
     torque: Array
     recorded: Recorded
     gains: Array | None
@@ -116,7 +116,7 @@ def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
         beside = arm.beside_motors([each.concealed for each in concealed])
         links, zeros = read_links(session, recorded.rows, beside, np.random.default_rng([spec.seed, 8]))
         recorded = replace(recorded, links=links)
-    return World(spec, arm, concealed, alternatives(arm, concealed, spec.rate, plain), torque, recorded, gains, zeros)
+    return World(spec, arm, concealed, standings(arm, concealed, spec.rate, plain), torque, recorded, gains, zeros)
 
 
 def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
@@ -172,13 +172,13 @@ def _visible_robot(source: Path, world: World) -> dict[str, Any]:
 
 def _truth(world: World) -> dict[str, Any]:
     spec, dynamics, test = world.spec, world.arm.dynamics, world.arm.session.test[world.recorded.rows]
-    both = sorted(zip(world.concealed, world.alternatives, strict=True), key=lambda pair: -pair[0].strength)
+    both = sorted(zip(world.concealed, world.standings, strict=True), key=lambda pair: -pair[0].strength)
     noise, left = world.recorded.noise, world.recorded.left
     moves = _moves(world)[test]
     while_moving = np.sum(moves * left[test] ** 2, axis=0) / np.maximum(moves.sum(axis=0), 1)
     return {
         "mismatch": bool(world.concealed),
-        "effects": [_effect(sized, others) for sized, others in both],
+        "effects": [_effect(*each) for each in both],
         "background": [
             {
                 "location": f"joint {j + 1}",
@@ -207,7 +207,7 @@ def _truth(world: World) -> dict[str, Any]:
     }
 
 
-def _effect(sized: Sized, others: list[Alternative]) -> dict[str, Any]:
+def _effect(sized: Sized, standing: Standing) -> dict[str, Any]:
     concealed, kind = sized.concealed, sized.concealed.kind
     return {
         "effect": kind.effect,
@@ -220,5 +220,6 @@ def _effect(sized: Sized, others: list[Alternative]) -> dict[str, Any]:
         ],
         "strength": round(sized.strength, 3),
         "rms_nm" if kind.lies is None else "rms_rad": float(f"{sized.rms:.5g}"),
-        "alternatives": [vars(other) for other in others],
+        "minor": standing.is_said_by_others,
+        "alternatives": [vars(other) for other in standing.alternatives],
     }

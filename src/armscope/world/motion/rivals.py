@@ -2,13 +2,15 @@
 
 To first order a cause is a few patterns of torque. A rival is a cause at a place whose patterns, with whatever is
 fitted anyway, reproduce the concealed change of torque up to what the noise hides. Patterns of links come from the
-same engine as the world: two compiled arms that differ by a little.
+same engine as the world: two compiled arms that differ by a little. What the names of the other concealed causes can
+say as well, with numbers of their own (a spring beside a cable of the same joint: both are curves of its angle),
+nobody can ask for.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,8 +31,26 @@ STRIBECK_SPEEDS = (0.05, 0.15, 0.4)
 CURVE_DEGREE = 5
 
 
-def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Array) -> list[list[Alternative]]:
-    """Acceptable names for each concealed cause, given the others.
+@dataclass(frozen=True)
+class Standing:
+    """What is to be asked for of a concealed cause, the others being as they are.
+
+    Attributes:
+        alternatives: acceptable names in its place, nearest first.
+        beside_nats: what is left of it where each other cause's name says as much of it as it can.
+    """
+
+    alternatives: list[Alternative]
+    beside_nats: float
+
+    @property
+    def is_said_by_others(self) -> bool:
+        """Whether the others' names leave nothing that could be told."""
+        return self.beside_nats < ALTERNATIVE_NATS
+
+
+def standings(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Array) -> list[Standing]:
+    """Of each concealed cause what else could stand in its place, and what of it is its own.
 
     Args:
         arm: the arm.
@@ -39,7 +59,7 @@ def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Arra
         plain: (T, n) torques with nothing concealed.
 
     Returns:
-        For each cause its alternatives, nearest first.
+        One for each cause.
     """
     train = np.flatnonzero(~arm.session.test)
     rows = train[:: max(len(train) // MOST_SAMPLES, 1)]
@@ -50,11 +70,25 @@ def alternatives(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Arra
     found = []
     for each in concealed:
         if each.concealed.kind.lies is not None:
-            found.append(_of_link(arm, each, rows, len(train) / GRID_HZ * rate / len(rows)))
+            of_link = _of_link(arm, each, rows, len(train) / GRID_HZ * rate / len(rows))
+            found.append(Standing(of_link, float("inf")))
             continue
         rest = [other for other in concealed if other is not each and other.concealed.kind.lies is None]
-        found.append(_equal(each, rest, others, rows, weights, free))
+        equal = _equal(each, rest, others, rows, weights, free)
+        found.append(Standing(equal, _beside(each, rest, others, rows, weights, free)))
     return found
+
+
+def _beside(one: Sized, rest: list[Sized], others: list[Rival], rows: Indices, weights: Array, free: Array) -> float:
+    """Nats that are left of a cause where the others, and all that their names can say, are fitted."""
+    names = {(each.concealed.kind.effect, each.concealed.location) for each in rest}
+    names.discard((one.concealed.kind.effect, one.concealed.location))
+    said = [other.columns for other in others if (other.effect, other.location) in names]
+    fixed = [free, *(each.change[rows].reshape(-1, 1) for each in rest), *said]
+    basis = _orthonormal(weights[:, None] * np.hstack(fixed))
+    target = weights * one.change[rows].reshape(-1)
+    left = target - basis @ (basis.T @ target)
+    return 0.5 * float(left @ left)
 
 
 def _of_link(arm: VirtualArm, one: Sized, rows: Indices, worth: float) -> list[Alternative]:
