@@ -66,3 +66,16 @@ def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
     assert Search.on(near.problem).log_odds(near.best, mass) > 100
     assert odds_of_name(heavier, mass) < INDISTINGUISHABLE_NATS
     assert mass not in selected.best.candidates
+
+
+def test_a_link_whose_centre_alone_is_elsewhere_has_that_name() -> None:
+    """Ten numbers of that link without a name say it, too, and nothing but their number speaks against them.
+
+    So that names stay where a link is singled out, that has the price of a name: no strength of an effect would make up
+    for it.
+    """
+    x, y, z = SECOND["com_mm"]
+    selected = with_the_second(com_mm=[x, y + 20, z])
+    shift = placed(selected, "link_first_moment", "link 2")
+    assert selected.best.candidates == {shift}
+    assert odds_of_name(selected, shift) > INDISTINGUISHABLE_NATS

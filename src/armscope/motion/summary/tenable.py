@@ -21,7 +21,7 @@ from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import Weighed, agreement
 from armscope.motion.fitting.refining import carried_in, is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import at_own_gain, chosen
+from armscope.motion.fitting.selection import at_own_gain, chosen, settled
 from armscope.motion.fitting.space import build_space
 from armscope.motion.library import catalogue
 from armscope.motion.library.change_constants import CHANGE
@@ -63,9 +63,10 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
-    """What was kept, with nothing in the place of what was struck out."""
+    """What was kept and is still worth its price, with nothing in the place of what was struck out."""
     search = Search.on(selected.problem)
-    return replace(selected, best=search.with_best_sizes(search.evaluated(kept, selected.best)))
+    best = search.with_best_sizes(search.evaluated(kept, selected.best))
+    return replace(selected, best=settled(search, best))
 
 
 def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:
