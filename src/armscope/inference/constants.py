@@ -132,6 +132,11 @@ class Numerics(Constants):
         "least ridge, relative to a column's own square",
         "derived: far above the rounding of doubles; twice and half change no golden verdict",
     )
+    nothing_left: float = constant(
+        1e-9,
+        "of a noise's square that each number is off at least: sums of what is fitted to all digits may be below zero",
+        "derived: far below any noise",
+    )
     rounded: float = constant(
         1e-12,
         "relative difference below which prior variances are the same",

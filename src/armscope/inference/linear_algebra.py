@@ -174,6 +174,7 @@ def profiled_gain(quadratic: Array, chi2: float, n: float, noise: float, least: 
     Returns:
         Nats, shaped as ``quadratic``.
     """
+    chi2 = max(chi2, NUMERICS.nothing_left * n)
     remaining = np.maximum(chi2 - quadratic, 1e-9 * chi2)
     ratio = np.maximum(np.sqrt(remaining / chi2), min(1.0, least / noise))
     return np.asarray(-n * np.log(ratio) + 0.5 * chi2 - 0.5 * remaining / ratio**2)

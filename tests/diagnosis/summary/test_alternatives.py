@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis import Settings, diagnose, judgement
 from armscope.diagnosis.held_out_worth import held_out_errors
-from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, too_close
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.diagnosis.naming import named
+from armscope.diagnosis.summary import alternatives as summary
+from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, inclusion_frequency, too_close
 from armscope.inference.edits import by_posterior
-from armscope.inference.evidence import evaluate
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import Candidate, ModelSpace
 from armscope.inference.problem import SelectedEffect, build_problem
 from armscope.inference.search import Search
@@ -149,3 +152,23 @@ def test_what_was_refused_beside_an_effect_does_not_take_its_place(alike: float)
     )
     rivals = alternatives(Search.on(problem), best)[0]
     assert [rival.candidate.kind for rival in rivals] == (["other"] if alike else [])
+
+
+def test_rows_that_are_drawn_twice_make_no_noise_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Twice the same reading to the last digit looks as if there was none: any curve through it was then right."""
+    told, drawn = [], []
+
+    def frequency(state: Any, draws: int, rng: np.random.Generator) -> dict[int, float]:
+        told.append(state.best.noise)
+        return inclusion_frequency(state, draws, rng)
+
+    def names(search: Search, space: EffectSpace, found: Hypothesis) -> Hypothesis:
+        drawn.append(found.noise)
+        return named(search, space, found)
+
+    monkeypatch.setattr(judgement, "inclusion_frequency", frequency)
+    monkeypatch.setattr(summary, "named", names)
+    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [1e-3]}, 60, 0.03, 1)
+    diagnose(arm, table, Settings(resamples=6, cross_validation=False))
+    assert len(drawn) == 6
+    assert min(drawn) >= told[0]

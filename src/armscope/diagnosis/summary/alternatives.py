@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -265,6 +265,7 @@ def _places(regions: Sequence[str]) -> str:
 def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Generator) -> dict[int, float]:
     """How often each chosen effect's place is chosen again when blocks of rows are drawn with replacement.
 
+    A block that is drawn twice repeats to the last digit, which no noise does: that of all rows is the least.
     Hypotheses of many columns (several free curves) are looked for with coarse curves, and without a local search.
 
     Args:
@@ -280,9 +281,10 @@ def inclusion_frequency(state: DiagnosisState, draws: int, rng: np.random.Genera
         return {}
     places = {c: state.space.candidates[c].key for c in best.candidates}
     hits = dict.fromkeys(best.candidates, 0)
+    problem = replace(state.problem, least_noise=max(state.problem.least_noise, best.noise))
     for _ in range(draws):
         times = np.bincount(rng.integers(0, len(blocks), len(blocks)), minlength=len(blocks))
-        search = Search.on(state.problem.with_equations(weighted_total(blocks, times)), beam=1, branches=2)
+        search = Search.on(problem.with_equations(weighted_total(blocks, times)), beam=1, branches=2)
         found = search.best((best.background,), search.coarsened(state.found), local=len(best.columns) <= BUDGET.large)
         again = {state.space.candidates[c].key for c in named(search, state.space, found).candidates}
         for candidate, place in places.items():
