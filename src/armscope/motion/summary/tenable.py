@@ -72,7 +72,7 @@ def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> Selected
 def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:
     """Whether a selection meets the middle one of the blocks that took no part better than another hypothesis does."""
     hypotheses = (selected.best, replace(alone, noise=selected.best.noise))
-    found, other = (_misfits(selected, best, best.chosen) for best in hypotheses)
+    found, other = _misfits(selected, [(best, best.chosen) for best in hypotheses])
     return bool(np.median(other - found) > 0)
 
 
@@ -217,7 +217,8 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     if not useless:
         return
     kept = tuple(effect for effect in best.chosen if effect.candidate not in useless)
-    lost = float(np.median(_misfits(selected, best, kept) - _misfits(selected, best, best.chosen)))
+    without, with_them = _misfits(selected, [(best, kept), (best, best.chosen)])
+    lost = float(np.median(without - with_them))
     yield from useless if lost <= 0 else [min(useless, key=gains.__getitem__)]
 
 
@@ -251,24 +252,31 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
     Returns:
         By number of each chosen cause.
     """
-    return {number: float(np.median(_gains_by_block(selected, number))) for number in selected.best.candidates}
-
-
-def _gains_by_block(selected: Weighed, number: int) -> Array:
-    """(blocks,) nats by which a chosen cause betters each block that took no part in its fit."""
     best = selected.best
-    kept = tuple(effect for effect in best.chosen if effect.candidate != number)
-    return _misfits(selected, best, kept) - _misfits(selected, best, best.chosen)
+    without = [tuple(effect for effect in best.chosen if effect.candidate != number) for number in best.candidates]
+    whole, *lesser = _misfits(selected, [(best, effects) for effects in (best.chosen, *without)])
+    return {n: float(np.median(each - whole)) for n, each in zip(best.candidates, lesser, strict=True)}
 
 
-def _misfits(selected: Weighed, best: Hypothesis, effects: tuple[SelectedEffect, ...]) -> Array:
-    """(blocks,) nats that effects, fitted to the other blocks, leave of each, beside those of nothing at all."""
-    nats = []
+def _misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
+    """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
+
+    Beside those of nothing at all.
+
+    Args:
+        selected: with B blocks.
+        asked: A hypotheses, and the effects that are fitted.
+
+    Returns:
+        (A, B).
+    """
+    nats = np.zeros((len(asked), len(selected.blocks)))
     for held, block in enumerate(selected.blocks):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        apart = block.scaled(selected.problem.scale)
-        fitted = evaluate(selected.problem.with_equations(rest), effects, best.background, best.noise)
-        at = fitted.columns
-        squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
-        nats.append(float(squares) / (2 * best.noise**2))
-    return np.array(nats)
+        trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
+        for row, (best, effects) in zip(nats, asked, strict=True):
+            fitted = evaluate(trained, effects, best.background, best.noise)
+            at = fitted.columns
+            squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
+            row[held] = float(squares) / (2 * best.noise**2)
+    return nats
