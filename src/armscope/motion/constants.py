@@ -39,6 +39,12 @@ class LibraryRules(Constants):
     least_body: float = constant(
         0.1, "of the moving link's mass, of a body that may be missing", "judgement: lighter ones show too little"
     )
+    any_motion: int = constant(
+        30,
+        "of a motion at which columns of the library are compared",
+        "derived: more than links have numbers",
+        unit="samples",
+    )
     redundant: float = constant(
         1e-5,
         "singular value, to the largest, below which a combination of masses is not told",

@@ -50,21 +50,22 @@ def with_warmth(cure: str) -> Torque:
     return at_joint(lambda q, v, a, T: (per_kelvin * (T + beside) + more) * v)
 
 
-def between(of: str, law: Callable[[list[float], Array], Array]) -> Callable[[str], Torque]:
-    """Torque on joints 2 and 3 by the sum or the difference of what they do, as the sentence says."""
+def between(of: str, law: Callable[[list[float], Array], Array], last: int = 3) -> Callable[[str], Torque]:
+    """Torque on two neighbours, joints 2 and 3, by the sum or the difference of what they do, as the sentence says."""
+    j, k = last - 2, last - 1
 
     def read(cure: str) -> Torque:
-        alike = "plus that of joint 3" in cure
-        assert alike or "less that of joint 3" in cure
+        alike = f"plus that of joint {last}" in cure
+        assert alike or f"less that of joint {last}" in cure
         other = 1 if alike else -1
-        assert ("as much the other way at joint 3" in cure) is not alike
-        numbers = told(cure, "at joint 3, by ")
+        assert (f"as much the other way at joint {last}" in cure) is not alike
+        numbers = told(cure, f"at joint {last}, by ")
 
         def more(motion: Motion, torque: Array) -> Array:
             found, values = torque.copy(), motion.dq if of == "speed" else motion.ddq
-            added = law(numbers, values[:, 1] + other * values[:, 2])
-            found[:, 1] += added
-            found[:, 2] += other * added
+            added = law(numbers, values[:, j] + other * values[:, k])
+            found[:, j] += added
+            found[:, k] += other * added
             return found
 
         return more
@@ -81,10 +82,10 @@ def rubbing(sign: int) -> Torque:
     return more
 
 
-def turning(sign: int) -> Torque:
+def turning(sign: int, j: int) -> Torque:
     def more(motion: Motion, torque: Array) -> Array:
-        found, faster = torque.copy(), motion.ddq[:, 1] + sign * motion.ddq[:, 2]
-        found[:, [1, 2]] += 0.15 * faster[:, None] * [1, sign]
+        found, faster = torque.copy(), motion.ddq[:, j] + sign * motion.ddq[:, j + 1]
+        found[:, [j, j + 1]] += 0.15 * faster[:, None] * [1, sign]
         return found
 
     return more
@@ -133,7 +134,7 @@ def waves(cure: str) -> Torque:
 
 
 RUBS = between("speed", lambda n, s: n[0] * np.sign(s) + n[1] * s)
-TURNS = between("acceleration", lambda n, a: n[0] * a)
+TURNS, TURNS_BEFORE = (between("acceleration", lambda n, a: n[0] * a, last) for last in (3, 2))
 AT, FROM = f"joint {JOINT + 1}", "joint 3 from joint 2"
 CASES = {
     "near rest": Case(
@@ -146,8 +147,8 @@ CASES = {
     ),
     "rubs with the sum": Case("coupled_friction", FROM, rubbing(1), RUBS),
     "rubs with the difference": Case("coupled_friction", FROM, rubbing(-1), RUBS),
-    "turns with the sum": Case("coupled_inertia", FROM, turning(1), TURNS),
-    "turns with the difference": Case("coupled_inertia", FROM, turning(-1), TURNS),
+    "turns with the sum": Case("coupled_inertia", "joint 2 from joint 1", turning(1, 0), TURNS_BEFORE),
+    "turns with the difference": Case("coupled_inertia", FROM, turning(-1, 1), TURNS),
     "spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 5 * (q - 0.4)), spring),
     "counterweight": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: 6 * np.sin(q + 0.5)), waves),
     "gas spring": Case("gravity_balance", AT, at_joint(lambda q, v, a, T: mounted(q)), between_links),

@@ -18,6 +18,7 @@ from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.sides import coulomb_width, sharp_width
+from armscope.robot.dynamics import MovingArm
 
 
 def place_causes(seen: Seen) -> list[PlacedCause]:
@@ -25,7 +26,8 @@ def place_causes(seen: Seen) -> list[PlacedCause]:
     moving = [int(j) for j in np.flatnonzero(seen.moving)]
     placed = [cause for joint in moving for cause in _background(seen, joint)]
     placed += [cause for joint in moving for cause in _at_joint(seen, joint)]
-    placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other)]
+    inertias = _torque_of_inertias(seen.arm)
+    placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other, inertias)]
     return [*placed, *place_masses(seen)]
 
 
@@ -215,7 +217,30 @@ def _outside(at: _Joint) -> Iterator[PlacedCause]:
     yield at.cause(catalogue.CURVE, catalogue.SCALE, names, "powers of torque", usual, variant="scale")
 
 
-def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
+Columns = tuple[Array, Array]
+"""Accelerations (N, m), and the torques (N m, 6 n) that each number of the links' inertias asks for."""
+
+
+def _torque_of_inertias(arm: MovingArm) -> Columns:
+    """At some motion: any that is not special will do."""
+    rng, size = np.random.default_rng(0), (LIBRARY.any_motion, arm.n_motors)
+    q, dq, ddq = (rng.uniform(-1, 1, size) for _ in range(3))
+    columns = arm.regressor(q, dq, ddq).reshape(size[0] * size[1], -1)
+    return ddq, columns[:, np.arange(columns.shape[1]) % 10 >= 4]
+
+
+def _is_a_link(inertias: Columns, j: int, k: int, sign: float) -> bool:
+    """Whether what turns with the sum or the difference of two joints is a link: between parallel axes the next one."""
+    acceleration, of_links = inertias
+    turning = np.zeros_like(acceleration)
+    turning[:, j] = acceleration[:, j] + sign * acceleration[:, k]
+    turning[:, k] = sign * turning[:, j]
+    target = turning.reshape(-1)
+    left = target - of_links @ np.linalg.lstsq(of_links, target, rcond=None)[0]
+    return bool(np.linalg.norm(left) < LIBRARY.redundant * np.linalg.norm(target))
+
+
+def _coupled(seen: Seen, j: int, k: int, inertias: Columns) -> Iterator[PlacedCause]:
     """What turns with the sum or the difference of two neighbours' motions, and acts on both of them."""
     width, place = sharp_width(seen.arm), f"joint {k + 1} from joint {j + 1}"
     if seen.arm.sliding[j] != seen.arm.sliding[k]:
@@ -232,6 +257,8 @@ def _coupled(seen: Seen, j: int, k: int) -> Iterator[PlacedCause]:
             Law("rubbing of two", (j, k), (sign, float(min(width[j], width[k])))),
             variant=variant,
         )
+        if _is_a_link(inertias, j, k, sign):
+            continue
         yield PlacedCause(
             catalogue.COUPLED_INERTIA,
             place,

@@ -1,0 +1,24 @@
+"""What of the library an arm can have at all."""
+
+from __future__ import annotations
+
+import pytest
+
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
+from armscope.motion.samples.timing import stretches
+from tests.motion.moving import ROBOT, moved, robot
+
+
+@pytest.mark.parametrize(("turned_over", "left"), [(0, {"difference"}), (180, {""})])
+def test_what_turns_with_two_parallel_joints_is_the_next_link_and_no_cause_of_its_own(
+    turned_over: int, left: set[str]
+) -> None:
+    """Joint 3 is parallel to joint 2, or points the other way; joints 1 and 2 are at right angles."""
+    first, second, last = ROBOT["dh"]["joints"]  # type: ignore[index]
+    rows = [first, {**second, "alpha_deg": turned_over}, last]
+    arm = robot(dh={"joints": rows})
+    placed = place_causes(seen_in(arm, list(stretches(moved(arm, 1))), 0.02))
+    found = [(each.location, each.variant) for each in placed if each.cause.name == "coupled_inertia"]
+    assert {variant for place, variant in found if place == "joint 2 from joint 1"} == {"", "difference"}
+    assert {variant for place, variant in found if place == "joint 3 from joint 2"} == left
