@@ -1,9 +1,16 @@
 """What is planted in a motion is found by name, place and size; what is not there is not named."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.motion import pipeline
+from armscope.motion.library.catalogue import COULOMB as COULOMB_CAUSE
+from armscope.motion.library.catalogue import ROTOR as ROTOR_CAUSE
+from armscope.motion.library.causes import Cause
+from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.laws import Law
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.recordings.motions import as_motions
@@ -136,3 +143,25 @@ def test_a_run_that_is_held_out_takes_no_part() -> None:
     assert found.verdict.runs == ("path 1",)
     assert found.verdict.held_out.what == "runs path 2"
     assert found.test is not None
+
+
+@pytest.mark.parametrize("stands", [True, False])
+def test_what_changes_within_a_run_takes_nothing_along_when_it_goes(
+    monkeypatch: pytest.MonkeyPatch, stands: bool
+) -> None:
+    """A selection with a load that comes and goes may have many names beside it that only stand with it."""
+
+    def selection(*causes: Cause) -> SimpleNamespace:
+        placed = [SimpleNamespace(cause=cause) for cause in causes]
+        candidates = frozenset(range(len(causes)))
+        return SimpleNamespace(
+            rows=SimpleNamespace(layout=SimpleNamespace(placed=placed)),
+            best=SimpleNamespace(candidates=candidates),
+            space=SimpleNamespace(starts=(None, None)),
+        )
+
+    without, wider = selection(ROTOR_CAUSE), selection(LOAD_CHANGE, COULOMB_CAUSE)
+    left = selection(COULOMB_CAUSE)
+    monkeypatch.setattr(pipeline, "rather_all_links", lambda selected, start: selected)
+    monkeypatch.setattr(pipeline, "tenable", lambda at, rate: left if at is wider and not stands else at)
+    assert pipeline._that_stands(without, wider, 100.0) is (wider if stands else without)  # type: ignore[arg-type, comparison-overlap]

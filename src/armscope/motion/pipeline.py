@@ -18,6 +18,7 @@ from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import estimated_model, select_causes
 from armscope.motion.fitting.with_changes import with_changes
+from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
@@ -161,8 +162,7 @@ def diagnose_motion(
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = select_causes(layout, train, how, runs, weighing, first.model)
-    selected = with_changes(selected, seen, train, how, _carried(motions), weighing)
-    selected = tenable(rather_all_links(selected, selected.space.starts[1]), how.rate)
+    selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
     notices += [*told, *little_excited(selected)]
@@ -185,6 +185,16 @@ def diagnose_motion(
     )
     progress("done", 1.0)
     return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
+
+
+def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) -> SelectedCauses:
+    """What can stand of the wider selection; where nothing that changes within a run does, of the one without it."""
+    for selected in (wider, without):
+        told = tenable(rather_all_links(selected, selected.space.starts[1]), rate)
+        changing = {told.rows.layout.placed[number].cause for number in told.best.candidates} & set(CHANGES)
+        if selected is without or changing:
+            break
+    return told
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
