@@ -82,6 +82,27 @@ def test_a_name_of_masses_that_is_hardly_likelier_than_none_goes_and_nothing_tak
     )
     for odds, kept in ((3.1, True), (2.9, False)):
         monkeypatch.setattr(judging, "odds_of_name", lambda at, number, told=odds: told)
-        found = judging._told_apart(both)
+        found = judging._told_apart(both, 200.0)
         assert (mass in found.best.candidates) is kept
         assert found.best.candidates - {mass} == stands.best.candidates
+
+
+@pytest.mark.parametrize(("nats", "untenable", "taken"), [(3.1, (), True), (2.9, (), False), (3.1, (0,), False)])
+def test_another_name_of_masses_takes_the_place_of_one_that_goes_if_it_is_likely_and_can_stand(
+    selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch, nats: float, untenable: tuple[int, ...], taken: bool
+) -> None:
+    stands = tenable(selected, 200.0)
+    placed = stands.rows.layout.placed
+    mass = next(n for n, each in enumerate(placed) if each.cause.name == "link_mass")
+    inertia = next(n for n, each in enumerate(placed) if each.cause.name == "link_inertia")
+
+    def beside(at: SelectedCauses, number: int) -> SelectedCauses:
+        more = dataclasses.replace(stands.best.chosen[0], candidate=number)
+        return dataclasses.replace(at, best=Search.on(at.problem).evaluated([*at.best.chosen, more], at.best))
+
+    monkeypatch.setattr(judging, "odds_of_name", lambda at, number: 1.0 if number == mass else 9.0)
+    monkeypatch.setattr(judging, "likeliest_name", lambda at, gone: (beside(at, inertia), inertia, nats))
+    monkeypatch.setattr(judging, "_untenable", lambda at, rate: frozenset(untenable))
+    found = judging._told_apart(beside(stands, mass), 200.0)
+    assert mass not in found.best.candidates
+    assert (inertia in found.best.candidates) is taken

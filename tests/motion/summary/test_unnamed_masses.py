@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from armscope.inference.edits import by_posterior
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.fitting.consistency import PathAgreement
@@ -17,6 +18,7 @@ from armscope.motion.summary import tenable
 from armscope.motion.summary.unnamed_masses import odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 from tests.motion.moving import ROBOT, moved, robot
+from tests.motion.summary.test_tenable import STATED
 
 FIRST, SECOND, LAST = ROBOT["links"]  # type: ignore[misc]
 
@@ -79,3 +81,18 @@ def test_a_link_whose_centre_alone_is_elsewhere_has_that_name() -> None:
     shift = placed(selected, "link_first_moment", "link 2")
     assert selected.best.candidates == {shift}
     assert odds_of_name(selected, shift) > INDISTINGUISHABLE_NATS
+
+
+def test_a_name_that_is_all_a_link_can_say_has_no_rival_without_a_name() -> None:
+    """The first link stands upright: of its ten numbers its inertia about the axis is the only one that shows."""
+    wider = {**FIRST, "inertia_kg_m2": [0.3, 0.48, 0.3, 0, 0, 0]}  # type: ignore[dict-item]
+    true = robot(links=[wider, SECOND, LAST])
+    selected = diagnose_motion(robot(drives=STATED), moved(true, 5), MotionSettings(cutoff=10.0)).selected
+    inertia = placed(selected, "link_inertia", "link 1")
+    search = Search.on(selected.problem)
+    bare = search.evaluated((), selected.best, selected.space.no_background)
+    best = max((search.evaluated([SelectedEffect(inertia, n)], bare) for n in range(5)), key=by_posterior)
+    alone = dataclasses.replace(selected, best=best)
+    assert odds_of_name(alone, inertia) > 10 * INDISTINGUISHABLE_NATS
+    assert {selected.rows.layout.placed[n].location for n in selected.best.candidates} <= {"link 1", "joint 1"}
+    assert selected.best.candidates

@@ -31,7 +31,7 @@ from armscope.motion.library.layout import OWN
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
-from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name
+from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
 
@@ -48,8 +48,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     barred: frozenset[int] = frozenset()
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
     for number in itertools.count():  # ends: from some round on names only go
-        own = {*_impossible(selected), *_between_samples(selected, rate)}
-        wrong = frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
+        wrong = _untenable(selected, rate)
         if not wrong:
             break
         barred |= wrong
@@ -59,7 +58,13 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         alone = _alone(again, kept)
         others = number + 1 < CONSISTENCY.judged and _foretells_more(again, alone.best)
         selected = at_own_gain(again if others else alone)
-    return _told_apart(selected)
+    return _told_apart(selected, rate)
+
+
+def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
+    """Numbers of the names that can't stand."""
+    own = {*_impossible(selected), *_between_samples(selected, rate)}
+    return frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
@@ -227,18 +232,25 @@ def _untold(selected: SelectedCauses, number: int, agree: bool | None) -> bool:
     return agree is None and selected.rows.layout.placed[number].cause in CHANGES
 
 
-def _told_apart(selected: SelectedCauses) -> SelectedCauses:
+def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """The selection without names of masses that are hardly likelier than none, the least of them first.
 
-    Not of what is there in some runs only: no link is otherwise there.
+    Another name takes the place of one that goes if it is likelier than none and can stand. Not of what is there in
+    some runs only: no link is otherwise there.
     """
+    gone: set[int] = set()
     while True:
         masses = [n for n in selected.best.candidates if is_of_masses(selected.rows.layout.placed[n])]
         odds, least = min(((odds_of_name(selected, number), number) for number in masses), default=(np.inf, 0))
         if odds >= INDISTINGUISHABLE_NATS:
             return selected
+        gone.add(least)
         kept = [effect for effect in selected.best.chosen if effect.candidate != least]
         selected = at_own_gain(_alone(selected, kept))
+        another = likeliest_name(selected, gone)
+        if another is not None and another[2] >= INDISTINGUISHABLE_NATS:
+            instead = at_own_gain(another[0])
+            selected = selected if _untenable(instead, rate) else instead
 
 
 def held_out_gains(selected: Weighed) -> dict[int, float]:

@@ -9,6 +9,7 @@ of its links' own does, of which evidence chooses the size as it does of the oth
 from __future__ import annotations
 
 import itertools
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +20,7 @@ from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes, ToleranceFamily
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
-from armscope.motion.constants import PRIOR
+from armscope.motion.constants import LIBRARY, PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.summary.constants import NAMING
@@ -37,10 +38,10 @@ def odds_of_name(selected: SelectedCauses, number: int) -> float:
     Returns:
         Nats; both sides with the shares of all other links and of the name's own that suit them best.
     """
-    best = selected.best
-    freed = _with_own_share(selected, _own(selected, number))
+    best, own = selected.best, _own(selected, number)
+    freed, apart = _with_own_share(selected, own), not _says_all(selected, number, own)
     kept = tuple(effect for effect in best.chosen if effect.candidate != number)
-    named, unnamed = (_at_best_shares(selected, freed, effects) for effects in (best.chosen, kept))
+    named, unnamed = (_at_best_shares(selected, freed, effects, apart) for effects in (best.chosen, kept))
     return named - unnamed
 
 
@@ -49,24 +50,28 @@ def is_of_masses(placed: PlacedCause) -> bool:
     return placed.inertial is not None and not placed.runs
 
 
-def likeliest_name(selected: SelectedCauses) -> tuple[SelectedCauses, int, float] | None:
+def likeliest_name(selected: SelectedCauses, without: Collection[int] = ()) -> tuple[SelectedCauses, int, float] | None:
     """The name of masses that says most of what has none there, where it is at least likelier than none.
 
     Args:
-        selected: a selection without a name of masses.
+        selected: a selection.
+        without: numbers of names that are not asked for.
 
     Returns:
         The selection with it, its number, and by how many nats it is likelier than none; None where there is none.
     """
     search, placed = Search.on(selected.problem), selected.rows.layout.placed
-    others = [n for n, cause in enumerate(placed) if not is_of_masses(cause)]
-    masses = [family.name for family in selected.space.families].index("masses")
-    smaller = (search.with_background(selected.best, masses, n) for n in range(selected.best.background[masses] + 1))
+    others = [n for n, cause in enumerate(placed) if n in without or not is_of_masses(cause)]
+    families = [family.name for family in selected.space.families]
+    masses, weights = families.index("masses"), families.index("link masses")
+    as_stated = search.with_background(selected.best, weights, 0)
+    both = (selected.best, as_stated) if selected.best.background[weights] else (selected.best,)
+    smaller = [search.with_background(each, masses, n) for each in both for n in range(each.background[masses] + 1)]
     named = [search.with_best_sizes(each) for start in smaller for each in search.additions(start, 1, others)]
     if not named:
         return None
     best = max(named, key=by_posterior)
-    (number,) = best.candidates - selected.best.candidates
+    number = best.chosen[-1].candidate
     found = replace(selected, best=best)
     nats = odds_of_name(found, number)
     return (found, number, nats) if nats > 0 else None
@@ -84,7 +89,7 @@ def odds_of_weight(selected: SelectedCauses, number: int) -> float:
     """
     freed = _with_own_share(selected, _own(selected, number))
     otherwise = freed.holding(selected.rows.layout.columns[number])
-    heavier, not_so = (_at_best_shares(selected, each, selected.best.chosen) for each in (freed, otherwise))
+    heavier, not_so = (_at_best_shares(selected, each, selected.best.chosen, True) for each in (freed, otherwise))
     return heavier - not_so
 
 
@@ -114,6 +119,16 @@ def _own(selected: SelectedCauses, number: int) -> Indices:
     return layout.inertial[np.isin(np.arange(len(layout.inertial)) // 10, links)]
 
 
+def _says_all(selected: SelectedCauses, number: int, own: Indices) -> bool:
+    """Whether a name is all that its links' numbers can say: of a first link that stands upright, its inertia is."""
+    columns, k = np.concatenate([own, selected.rows.layout.columns[number]]), len(own)
+    scale = selected.problem.scale[columns]
+    G = selected.problem.equations.G[np.ix_(columns, columns)] * np.outer(scale, scale)
+    said = G[:k, k:] @ np.linalg.pinv(G[k:, k:], rcond=LIBRARY.redundant, hermitian=True) @ G[k:, :k]
+    whole = np.diag(G)[:k]
+    return bool(np.max(whole - np.diag(said)) < LIBRARY.redundant_columns**2 * np.max(whole))
+
+
 def _with_own_share(selected: SelectedCauses, own: Indices) -> Problem:
     """The problem with some inertial parameters in a family of their own, the last of all."""
     space, problem = selected.space, selected.problem
@@ -123,15 +138,19 @@ def _with_own_share(selected: SelectedCauses, own: Indices) -> Problem:
     return replace(problem, space=replace(space, families=families), family_costs=np.append(problem.family_costs, 0.0))
 
 
-def _at_best_shares(selected: SelectedCauses, freed: Problem, effects: tuple[SelectedEffect, ...]) -> float:
+def _at_best_shares(
+    selected: SelectedCauses, freed: Problem, effects: tuple[SelectedEffect, ...], apart: bool
+) -> float:
     """Log posterior of some effects by the shares that suit them: of all links, of the name's own, of links' weights.
 
-    The last is looked for at the best of the first two, and these once more at it.
+    The last is looked for at the best of the first two, and these once more at it. The name's own links have the share
+    of all where they are not set ``apart``.
     """
     names = [family.name for family in selected.space.families]
     masses, weights = names.index("masses"), names.index("link masses")
     sizes, found = (*selected.best.background, 0), -np.inf
-    shares = list(itertools.product(range(freed.space.families[masses].sizes), range(len(SHARES))))
+    of_all = range(freed.space.families[masses].sizes)
+    shares = list(itertools.product(of_all, range(len(SHARES)))) if apart else [(size, size) for size in of_all]
     of_weights = range(freed.space.families[weights].sizes)
     for _ in range(2):
         before = found
