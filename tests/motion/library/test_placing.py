@@ -22,3 +22,14 @@ def test_what_turns_with_two_parallel_joints_is_the_next_link_and_no_cause_of_it
     found = [(each.location, each.variant) for each in placed if each.cause.name == "coupled_inertia"]
     assert {variant for place, variant in found if place == "joint 2 from joint 1"} == {"", "difference"}
     assert {variant for place, variant in found if place == "joint 3 from joint 2"} == left
+
+
+@pytest.mark.parametrize(("gravity", "says"), [([0.0, 0.0, -9.81], False), ([0.0, -9.81, 0.0], True)])
+def test_a_centre_that_shows_as_an_inertia_only_is_no_cause_of_its_own(gravity: list[float], says: bool) -> None:
+    """Upright, the first link has one number that shows; lying, its weight turns it as well."""
+    arm = robot(gravity_m_s2=gravity)
+    placed = place_causes(seen_in(arm, list(stretches(moved(arm, 1))), 0.02))
+    first = [(each.cause.name, each.variant) for each in placed if each.location == "link 1"]
+    assert (("link_first_moment", "") in first) is says
+    assert first.count(("link_inertia", "")) == 1
+    assert ("link_inertia", "all six") not in first

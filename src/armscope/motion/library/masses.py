@@ -30,9 +30,11 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
         if arm.n_links > 1:
             first, second = identity[:, own] @ moved_centre(arm.inertial[own]), identity[:, 10 * link + 4 : own.stop]
             moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
-            yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
+            if _says_more(seen, first, second):
+                yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
             names = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
-            yield from _inertial(seen, catalogue.LINK_INERTIA, place, names, second, variant="all six")
+            if len(shown(seen, second)) > 1:
+                yield from _inertial(seen, catalogue.LINK_INERTIA, place, names, second, variant="all six")
             alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
             yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
     if arm.n_links > 1:
@@ -99,6 +101,16 @@ def shown(seen: Seen, inertial: Array) -> Indices:
     diagonal = np.abs(np.diag(R))
     told = np.sort(at_all[order[: len(diagonal)][diagonal > LIBRARY.redundant_columns * diagonal[0]]])
     return np.asarray(told)
+
+
+def _says_more(seen: Seen, inertial: Array, than: Array) -> bool:
+    """Whether what the motion shows of some inertial parameters is not all said by others.
+
+    Of a first link that stands upright a centre that lies elsewhere is one inertia, and no motion tells it from that.
+    """
+    torque, said = seen.regressor @ inertial[:, shown(seen, inertial)], seen.regressor @ than[:, shown(seen, than)]
+    left = torque - said @ np.linalg.lstsq(said, torque, rcond=None)[0]
+    return bool(np.any(np.linalg.norm(left, axis=0) > LIBRARY.redundant_columns * np.linalg.norm(torque, axis=0)))
 
 
 def _inertial(
