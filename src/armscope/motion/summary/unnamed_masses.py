@@ -169,7 +169,8 @@ def _posterior(
     """Log posterior, nats; that of all links just these have another share has the price of a name.
 
     It is one kind of cause more, at one of the links, of some size: for nothing, a link that is singled out without a
-    name would have been preferred to one whose name says all of it.
+    name would have been preferred to one whose name says all of it. That it pays for its kind, too, was decided with
+    two cases in view, whose names had odds of 2.5 and 2.6 nats by its place and size alone.
     """
     found = float(evaluate(freed, effects, sizes, selected.best.noise).log_posterior)
     of_all = sizes[[family.name for family in freed.space.families].index("masses")]
