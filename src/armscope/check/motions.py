@@ -19,6 +19,7 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import channels, doubts_about, refuse_other_joints
 from armscope.motion.samples.timing import mended_rows
+from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 
@@ -53,12 +54,14 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     """
     if arm is not None:
         refuse_other_joints(arm, motions)
+    motions, turns = counted_on(motions)
     kept, time, notices = mended_rows(motions)
-    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*notices, *doubts_about(motions)]]
+    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*turns, *notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
-    found = [*told, *_dead(motions), *_units(motions)]
+    broken = list(_leaps(motions))
+    found = [*broken, *told, *_dead(motions), *_units(motions)]
     found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
-    if arm is not None:
+    if arm is not None and not broken:  # speeds across a leap are no speeds
         runs = {run: _coarse(even, run) for run in even.runs}
         samples = _samples([few for _, few in runs.values()])
         of_size = _torques(even, samples, arm) if motions.kind == "torque" else iter(())
@@ -88,6 +91,17 @@ def _dead(motions: Motions) -> Iterator[Suspicion]:
     for name, values in zip(channels(motions), motions.effort.T, strict=True):
         if np.ptp(values) == 0:
             yield Suspicion("problem", f"{name} is {values[0]:g} in every row", "Is the channel recorded?")
+
+
+def _leaps(motions: Motions) -> Iterator[Suspicion]:
+    for j, row, step in leaps(motions):
+        rows = f"from row {row + 1} to row {row + 2}"
+        statement = f"q{j + 1} leaps by {np.degrees(step):.0f} deg {rows}: no joint moves so"
+        cure = (
+            "Was it recorded within one turn, and filtered or interpolated since? Count the turns on before that. "
+            "Otherwise leave out the rows about it."
+        )
+        yield Suspicion("problem", statement, cure)
 
 
 def _units(motions: Motions) -> Iterator[Suspicion]:

@@ -27,6 +27,7 @@ from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch, limits, mended, stretches
+from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.holding_out import (
@@ -146,13 +147,14 @@ def diagnose_motion(
         InputError: the samples don't fit the arm or hold nothing to go by.
     """
     settings = settings or MotionSettings()
+    motions, turns = counted_on(motions)
     motions, standing = runs_in_motion(motions)
     for run in settings.held_out:
         if run not in motions.runs:
             rule = f"{motions.source} has no such run in motion"
             raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
     progress("laying samples on an even grid", 0.0)
-    notices = [Notice("table", note) for note in motions.notes] + standing + check_motions(arm, motions)
+    notices = [Notice("table", note) for note in motions.notes] + turns + standing + check_motions(arm, motions)
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)

@@ -17,6 +17,7 @@ from armscope.motion.library.clauses_of_changes import spells
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches
+from armscope.motion.samples.turns import counted_on
 from armscope.recordings.motions import Motions, read_motions, torque_columns
 
 WARM = ("warm speed", "warm side", "curve over temperature")
@@ -55,6 +56,7 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
         InputError: as `predict_motions`.
     """
     refuse_other_joints(fitted.arm, rows)
+    rows, turns = counted_on(rows)
     follows = {getattr(cause.placed.columns, "kind", "") for cause in fitted.causes}
     if rows.temperature is None and follows & set(WARM):
         rule = "a cause in the model follows it, so it must be known in every row"
@@ -72,7 +74,7 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
             table[f"q{j + 1}_link_{'m' if fitted.arm.sliding[j] else 'rad'}"] = links[:, j]
     if fitted.kind == "current":
         table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
-    return table, [*notes, *left_out]
+    return table, [*(notice.text for notice in turns), *notes, *left_out]
 
 
 def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from armscope.core.constants import Constants, constant
 
 
@@ -185,6 +187,18 @@ class ReadingRules(Constants):
     )
     unread_s: float = constant(
         0.5, "for which a channel repeats one value that was not read", "judgement: fifty samples at 100 Hz", unit="s"
+    )
+    part_turn: float = constant(
+        np.pi / 2,
+        "by which a step may differ from a whole turn, or from standing still, where an angle is recorded within one",
+        "derived: a joint at 450 deg/s, faster than most, at the slowest sampling that is taken",
+        unit="rad",
+    )
+    usual_steps: float = constant(
+        95.0, "of an angle's steps that are usual", "judgement: jumps are fewer than one in twenty", unit="%"
+    )
+    leap: float = constant(
+        10.0, "times the usual steps, from which one is no motion", "judgement: no arm speeds up so from rest to a step"
     )
     rounding: float = constant(
         1e-9, "of a channel's range, below which a change is rounding of the computer", "derived: of double precision"
