@@ -61,12 +61,16 @@ class FourierPath:
         order = np.arange(1.0, self.harmonics + 1)
         return replace(self, sine=_without(self.sine, order), cosine=_without(self.cosine, order**2))
 
-    def fitted(self, limits: Limits, use: float = 1.0) -> FourierPath:
+    def fitted(self, limits: Limits, use: float = 1.0, most: float = np.inf) -> FourierPath:
         """The same shape, its waves made as large, and its centre moved as little, as the limits allow.
 
         Args:
             limits: of angle, speed and acceleration.
             use: which share of them may be used.
+            most: times as large as they are that waves may be made.
+
+        Returns:
+            The path within the limits.
         """
         angle, speed, acceleration = self.over_period()
         waves = angle - self.centre
@@ -78,7 +82,7 @@ class FourierPath:
                 limits.speed / np.abs(speed).max(axis=0),
                 limits.acceleration / np.abs(acceleration).max(axis=0),
             ]
-        factor = use * np.nanmin(factors, axis=0)
+        factor = np.minimum(use * np.nanmin(factors, axis=0), most)
         factor = np.where(np.isfinite(factor), factor, 1.0)
         margin = (1 - use) / 2 * np.where(np.isfinite(room), room, 0.0)
         lowest, highest = limits.angle[:, 0] + margin - factor * low, limits.angle[:, 1] - margin - factor * high

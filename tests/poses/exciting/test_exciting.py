@@ -27,6 +27,7 @@ from armscope.poses.exciting.search import MotionRequest, excite
 from armscope.poses.obstacles import Surroundings, refusals
 from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
+from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import inertial_parameters
 from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import MovingArm, stated_dynamics
@@ -147,8 +148,40 @@ def test_a_motion_of_little_torque_is_asked_for_where_motors_are_weak(six):
     assert (torque <= [drive.torque_nm for drive in drives]).all()
     hopeless = [drive.model_copy(update={"torque_nm": 1.0}) for drive in drives]
     none = build_arm(six.description.model_copy(update={"drives": tuple(hopeless)}))
-    with pytest.raises(InputError, match="motions refused"):
+    with pytest.raises(InputError, match=r"motions refused.*the torque of joint \d\. Less load, a longer --period-s"):
         excite(none, MotionRequest(rounds=1), NOWHERE)
+
+
+def folding():
+    """Seven joints that fold the arm onto itself in most random motions: the Panda's lengths and ranges."""
+    rows = [(0, 0, 333), (0, -90, 0), (0, 90, 316), (82.5, 90, 0), (-82.5, -90, 384), (0, 90, 0), (88, 90, 107)]
+    ends = [(-160, 160), (-95, 95), (-160, 160), (-170, -5), (-160, 160), (0, 210), (-160, 160)]
+    joints = [dict(zip(("a_mm", "alpha_deg", "d_mm"), row, strict=True)) for row in rows]
+    link = {"mass_kg": 2, "com_mm": [10, 20, -30], "inertia_kg_m2": [0.02, 0.02, 0.02, 0, 0, 0]}
+    stated = {
+        "name": "folding",
+        "dh": {"convention": "modified", "joints": joints},
+        "links": [link] * 7,
+        "joint_limits_deg": ends,
+        "drives": [{"speed_deg_s": 110, "acceleration_deg_s2": 350}] * 7,
+    }
+    return build_arm(RobotDescription.model_validate(stated))
+
+
+def test_where_every_large_motion_hits_something_a_small_one_grows_about_a_clear_pose():
+    arm, around = folding(), Surroundings()
+    small = excite(arm, MotionRequest(rounds=0), around)
+    assert small.refused >= 24 * 4  # all random motions, at every share of the limits
+    grown = excite(arm, MotionRequest(rounds=60), around)
+    assert grown.after.value > small.after.value
+    angle, speed, _ = grown.path.at(np.linspace(0, 20, 300))
+    assert (refusals(arm, angle, around) == "").mean() > 0.99
+    limits = limits_of(arm).path
+    assert (angle >= limits.angle[:, 0] - 1e-9).all()
+    assert (angle <= limits.angle[:, 1] + 1e-9).all()
+    assert (np.abs(speed) <= limits.speed).all()
+    with pytest.raises(InputError, match=r"motions refused.*hits the floor\. Is --floor-mm"):
+        excite(arm, MotionRequest(rounds=0), Surroundings(floor=3.0))
 
 
 def test_friction_and_offset_part_only_when_the_joint_turns_both_ways(six):

@@ -15,6 +15,7 @@ from armscope.poses.body import collision_shapes
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
 from armscope.poses.exciting.search import Excitation
+from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -111,17 +112,22 @@ def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
     raise InputError(verdict, place, content, "a cause has its name in `effect` and its place in `location`")
 
 
-def pairs_of(verdict: Path) -> tuple[Pair, ...]:
+def pairs_of(verdict: Path, arm: Arm | None = None) -> tuple[Pair, ...]:
     """The causes that a verdict on a motion could not tell apart, each with its alternative.
 
     Where it told all of them, what it told: each cause with each of its alternatives.
 
     Raises:
-        InputError: it is no verdict, or nothing in it has an alternative.
+        InputError: it is no verdict, or one of an arm with another number of joints; or nothing in it has an
+            alternative.
     """
     content = read_json(verdict, "verdict.json of a diagnosis of a motion")
     if not isinstance(content, dict) or not isinstance(content.get("effects"), list):
         raise InputError(verdict, "", "no list of effects", "verdict.json of a diagnosis of a motion is needed here")
+    joints = content.get("background")
+    if arm is not None and isinstance(joints, list) and len(joints) != arm.n_motors:
+        rule = f"{arm.name} has {arm.n_motors}: the verdict is on another arm"
+        raise InputError(verdict, "background", f"{len(joints)} joints", rule, "Give the arm that it was made of.")
     pairs: list[Pair] = []
     close: list[Pair] = []
     for number, effect in enumerate(content["effects"]):

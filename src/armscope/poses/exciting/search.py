@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -20,7 +21,7 @@ from armscope.poses.exciting.criterion import (
     told_apart,
 )
 from armscope.poses.exciting.limits import MotionLimits, limits_of
-from armscope.poses.obstacles import Surroundings, refusals
+from armscope.poses.obstacles import REASONS, Surroundings, refusals
 from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
 
@@ -32,6 +33,10 @@ STARTS = 24
 """Random motions of which the best is bettered; their median is what "before" means."""
 USES = (0.95, 0.7, 0.5, 0.35)
 """Shares of the limits that are tried in turn until torques and surroundings allow the motion."""
+SMALLER = (0.5, 0.35, 0.25, 0.15, 0.1)
+"""Shares of their waves that are tried about poses that are clear, where no motion over the limits is allowed."""
+CLEAR_POSES = 2000
+"""Random poses among which clear ones are looked for: of an arm that folds onto itself one in a hundred would do."""
 TORQUE_USE = 0.99
 """Share of the torques' limits that may be used: between its samples a torque is higher by less."""
 NARROWING, LEAST_STEP = 0.35, 0.02
@@ -104,10 +109,10 @@ def excite(
     asked = told_apart(arm, shown, limits.path, wanted.pairs, rng)
     search = _Search(arm, limits, around, shown, replace(wanted, pairs=asked.apart))
     found = [path for path in (search.allowed(_draw(limits, wanted, rng)) for _ in range(STARTS)) if path is not None]
+    most = np.inf
     if not found:
-        rule = "none of the random motions keeps clear of the floor, of the arm itself and of its torque limits"
-        raise InputError(arm.name, "", f"{STARTS} motions refused", rule, "Less load, a longer --period, other limits.")
-    path, before, best = _bettered(search, found, rng, progress)
+        found, most = search.about_clear_poses(rng), 1.0
+    path, before, best = _bettered(search, found, rng, progress, most)
     torque = np.abs(search.torques(path)).max(axis=0)
     return Excitation(
         arm, limits, around, path, shown, before, best, asked.apart, asked.alike, asked.lawless, torque,
@@ -116,9 +121,24 @@ def excite(
 
 
 def _bettered(
-    search: _Search, found: list[FourierPath], rng: np.random.Generator, progress: Callable[[int, int], None] | None
+    search: _Search,
+    found: list[FourierPath],
+    rng: np.random.Generator,
+    progress: Callable[[int, int], None] | None,
+    most: float,
 ) -> tuple[FourierPath, MotionScore, MotionScore]:
-    """The best of some motions, bettered; the score of the median one, and its own."""
+    """The best of some motions, bettered; the score of the median one, and its own.
+
+    Args:
+        search: that scores and refuses.
+        found: the motions.
+        rng: of the changes.
+        progress: as in `excite`.
+        most: times as large as they are that changed waves are made where the limits leave room.
+
+    Returns:
+        The motion and the scores.
+    """
     scores = [search.score(path) for path in found]
     order = np.argsort([each.value for each in scores])
     before = scores[int(order[(len(order) - 1) // 2])]
@@ -126,7 +146,7 @@ def _bettered(
     rounds = search.wanted.rounds
     for number in range(rounds):
         step = NARROWING * (1 - number / rounds) + LEAST_STEP
-        tried = _moved(path, step, rng).resting().fitted(search.limits.path, USES[0])
+        tried = _moved(path, step, rng).resting().fitted(search.limits.path, USES[0], most)
         worth = search.score(tried)
         if worth.value > best.value and search.possible(tried):
             path, best = tried, worth
@@ -144,6 +164,7 @@ class _Search:
         self.arm, self.limits, self.around, self.shown, self.wanted = arm, limits, around, shown, wanted
         self.numbers = np.concatenate([inertial_parameters(arm.model), stated_friction(arm)])
         self.tried = self.refused = 0
+        self.why: Counter[str] = Counter()
 
     def motion(self, path: FourierPath) -> Motion:
         count = max(SAMPLES, PER_WAVE * path.harmonics)
@@ -162,13 +183,14 @@ class _Search:
 
     def possible(self, path: FourierPath) -> bool:
         """Whether torques and surroundings allow it."""
-        if np.any(np.abs(self.torques(path)) > TORQUE_USE * self.limits.torque):
-            self.refused += 1
-            return False
-        angle, _, _ = path.over_period()
-        clear = bool((refusals(self.arm, angle, self.around) == "").all())
-        self.refused += not clear
-        return clear
+        beyond = np.any(np.abs(self.torques(path)) > TORQUE_USE * self.limits.torque, axis=0)
+        reasons = [f"goes beyond the torque of joint {j + 1}" for j in np.flatnonzero(beyond)]
+        if not reasons:
+            angle, _, _ = path.over_period()
+            reasons = [str(reason) for reason in np.unique(refusals(self.arm, angle, self.around)) if reason]
+        self.refused += bool(reasons)
+        self.why.update(reasons)
+        return not reasons
 
     def allowed(self, path: FourierPath) -> FourierPath | None:
         """The motion, made smaller where it must be."""
@@ -177,6 +199,41 @@ class _Search:
             if self.possible(smaller):
                 return smaller
         return None
+
+    def about_clear_poses(self, rng: np.random.Generator) -> list[FourierPath]:
+        """Small motions about poses that are clear, for arms that meet themselves, or the floor, on larger ones.
+
+        Raises:
+            InputError: none is possible either.
+        """
+        low, high = self.limits.path.angle.T
+        poses = rng.uniform(low, high, (CLEAR_POSES, len(low)))
+        reasons = refusals(self.arm, poses, self.around)
+        clear, found = poses[reasons == ""][:STARTS], []
+        if not len(clear):
+            self.why = Counter(map(str, reasons))
+        for pose in clear:
+            path = _draw(self.limits, self.wanted, rng)
+            for share in SMALLER:
+                small = replace(path, centre=pose, sine=share * path.sine, cosine=share * path.cosine)
+                small = small.fitted(self.limits.path, USES[0], 1.0)
+                if self.possible(small):
+                    found.append(small)
+                    break
+        if not found:
+            raise self._none(len(clear))
+        return found
+
+    def _none(self, clear: int) -> InputError:
+        """That no motion is possible, and what stands in its way most often."""
+        (reason, _), *_ = self.why.most_common(1) or [("", 0)]
+        cure = "Is --floor-mm in the base frame, z up?"
+        if "torque" in reason:
+            cure = "Less load, a longer --period-s, or other torque_nm in `drives` (or effort in the URDF)."
+        elif reason == REASONS[0]:
+            cure = f"Links are {1e3 * self.around.radius_of(self.arm):.0f} mm thick about their lines: see --radius-mm."
+        rule = f"nor is any of {clear} small ones about poses that are clear; most often, the arm {reason}"
+        return InputError(self.arm.name, "", f"{STARTS} motions refused", rule, cure)
 
 
 def _draw(limits: MotionLimits, wanted: MotionRequest, rng: np.random.Generator) -> FourierPath:
