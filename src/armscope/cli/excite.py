@@ -43,7 +43,8 @@ def excite(
     rounds: Annotated[int, typer.Option(min=0, help="how many rounds improve the best of 24 random motions")] = 600,
     seed: Annotated[int, typer.Option(min=0, help="seed of the search")] = 0,
 ) -> None:
-    """Plan a motion that shows masses and friction best, inside all limits and clear of floor and arm."""
+    """Plan a motion of turning joints that shows masses and friction best, in all limits, clear of floor and arm."""
+    from armscope.cli.robots import tell_guesses
     from armscope.core.streams import is_stream
     from armscope.robot import load_arm
 
@@ -55,7 +56,9 @@ def excite(
     if rate_hz * period_s > MOST_SAMPLES:
         asked = f"{rate_hz * period_s:.3g} samples"
         raise InputError("--rate-hz", "", asked, f"--rate-hz times --period-s: at most {MOST_SAMPLES:,} samples")
-    arm = load_arm(_only_one(robot, nominal))
+    chosen = _only_one(robot, nominal)
+    arm = load_arm(chosen)
+    tell_guesses(chosen, arm.description)
 
     from armscope.poses.exciting.output import pairs_of, trajectory_table, write_excitation
     from armscope.poses.exciting.search import MotionRequest
@@ -64,7 +67,7 @@ def excite(
     from armscope.report.figures.exciting_motion import motion_figure
     from armscope.report.style import save_figure
 
-    pairs = () if separate is None else pairs_of(separate)
+    pairs = () if separate is None else pairs_of(separate, arm)
     radius, floor = (None if each is None else each * 1e-3 for each in (radius_mm, floor_mm))
     around = Surroundings(radius, floor)
     found = find(

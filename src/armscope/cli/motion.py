@@ -93,11 +93,8 @@ def _read_and_checked(table: Path, robot: Path, asked: MotionOptions) -> tuple[M
     import numpy as np
 
     from armscope.core.inputs import InputError, nearest
-    from armscope.recordings.motions import read_motions
-    from armscope.robot.dynamics import load_moving_arm
 
-    arm = load_moving_arm(robot)
-    motions = read_motions(table, arm.n_motors)
+    arm, motions = _arm_and_motions(robot, table)
     for run in (*asked.runs, *asked.held_out):
         if run not in motions.runs:
             option = "--run" if run in asked.runs else "--held-out"
@@ -111,6 +108,32 @@ def _read_and_checked(table: Path, robot: Path, asked: MotionOptions) -> tuple[M
     if not asked.anyway:
         refuse_problems(problems, table)
     return arm, motions, problems
+
+
+def _arm_and_motions(robot: Path, table: Path) -> tuple[MovingArm, Motions]:
+    """Both, with what was guessed of a URDF said.
+
+    Raises:
+        InputError: one of them can't be used; where motors are too many or few for a tip that was guessed, it says so.
+    """
+    from armscope.cli.robots import tell_guesses
+    from armscope.core.inputs import InputError
+    from armscope.recordings.motions import OtherMotors, read_motions
+    from armscope.robot.dynamics import load_moving_arm
+
+    arm = load_moving_arm(robot)
+    told = arm.description.source.get("tip", "")
+    try:
+        motions = read_motions(table, arm.n_motors)
+    except OtherMotors as error:
+        if not told.startswith("guessed"):
+            raise
+        urdf = Path(str(arm.description.urdf)).name
+        content = f"{{name: {arm.description.name}, urdf: {urdf}, tip: NAME}}"
+        cure = f"Where the arm ends was {told}. Name the link that carries the tool in a robot.yaml: `{content}`."
+        raise InputError(error.file, error.place, error.found, error.rule, cure) from error
+    tell_guesses(robot, arm.description)
+    return arm, motions
 
 
 def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]] | None:
@@ -150,12 +173,7 @@ def check_motions_table(table: Path, robot: Path | None, as_json: bool) -> bool:
     from armscope.cli.robots import print_json
     from armscope.recordings.motions import read_motions
 
-    arm = None
-    if robot is not None:
-        from armscope.robot.dynamics import load_moving_arm
-
-        arm = load_moving_arm(robot)
-    motions = read_motions(table, None if arm is None else arm.n_motors)
+    arm, motions = (None, read_motions(table)) if robot is None else _arm_and_motions(robot, table)
 
     from armscope.check.motions import check_moving
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from armscope.recordings import Recordings
     from armscope.robot import Arm
+    from armscope.robot.description import RobotDescription
 
 
 def robot_of(path: Path) -> Arm:
@@ -39,12 +40,10 @@ def arm_and_tables(
         InputError: a file can't be used.
     """
     from armscope.core.inputs import InputError
-    from armscope.robot.description_file import guesses, load_description
-    from armscope.robot.urdf_file import is_xml
+    from armscope.robot.description_file import load_description
 
     description = load_description(robot)
-    for guess in guesses(description) if is_xml(robot) else ():
-        print(f"note: {robot}: {guess}; `armscope init {robot}` writes a robot.yaml to mend it", file=sys.stderr)
+    tell_guesses(robot, description)
     if not robot.exists():
         words = f"the library's {description.name}, nothing at its flange"
         print(f"note: {robot}: {words}; `armscope init {robot} -o robot.yaml` writes it to a file", file=sys.stderr)
@@ -62,6 +61,15 @@ def arm_and_tables(
         if table.n_motors != arm.n_motors:  # how many motors a URDF has, only its arm tells
             table_of(path, arm.n_motors)
     return arm, tables
+
+
+def tell_guesses(robot: Path, description: RobotDescription) -> None:
+    """Say what was guessed of a bare URDF."""
+    from armscope.robot.description_file import guesses
+    from armscope.robot.urdf_file import is_xml
+
+    for guess in guesses(description) if is_xml(robot) else ():
+        print(f"note: {robot}: {guess}; `armscope init {robot}` writes a robot.yaml to mend it", file=sys.stderr)
 
 
 def table_of(path: Path, n_motors: int | None = None) -> Recordings:

@@ -169,6 +169,10 @@ def torque_columns(sliding: NDArray[np.bool_]) -> list[str]:
     return [f"f{j}_n" if slides else f"tau{j}_nm" for j, slides in enumerate(sliding, start=1)]
 
 
+class OtherMotors(InputError):
+    """A table of more motors, or fewer, than the arm has."""
+
+
 class _Reader(ColumnReader):
     """Takes the columns of motions.csv out of a table, each checked as it is taken."""
 
@@ -194,11 +198,12 @@ class _Reader(ColumnReader):
                 fewer = not slip and sorted(found) == list(range(1, motor)) and motor > 1
                 of_table = f"The table has {motor - 1} of them: is this the right robot for the recordings?"
                 cure = of_table if fewer else nearest(f"q{motor}_rad", others)
-                raise InputError(self.source, "line 1", f"no column q{motor}_rad", rule, cure)
+                error = OtherMotors if fewer else InputError
+                raise error(self.source, "line 1", f"no column q{motor}_rad", rule, cure)
         if max(found) > count:
             extra = f"q{max(found)}_{found[max(found)]}"
             cure = "Is this the right robot for the table?"
-            raise InputError(self.source, "line 1", extra, f"the arm has {count} motors", cure)
+            raise OtherMotors(self.source, "line 1", extra, f"the arm has {count} motors", cure)
         units = [found[motor] for motor in range(1, count + 1)]
         return np.column_stack([self._position(j, unit) for j, unit in enumerate(units, start=1)]), units
 

@@ -126,10 +126,11 @@ def refuse_other_than_turning(file: str, model: pin.Model, sliding: bool = False
         name, kind = model.names[joint], model.joints[joint].shortname().removeprefix("JointModel")
         other = next((told for begin, told in sorted(KINDS.items(), reverse=True) if kind.startswith(begin)), "")
         if other and not (sliding and other == SLIDING):
-            cure = "Make it a fixed joint in the file."
+            rule, cure = "joints turn, or slide along one axis", "Make it a fixed joint in the file."
             if other == SLIDING:
+                rule = "only turning joints can be diagnosed by poses or planned for; `diagnose motions.csv` takes both"
                 cure = f"Hold it where it stood (m): `hold_joints: {{{name}: 0}}`."
-            raise InputError(file, f"joint {name}", other, "only turning joints can be diagnosed", cure)
+            raise InputError(file, f"joint {name}", other, rule, cure)
 
 
 def _to_hold(file: str | None, full: pin.Model, name: str, value: float) -> int:

@@ -273,6 +273,11 @@ def _last_link(path: str, ways: dict[str, list[ET.Element]], slides: bool) -> tu
     tip, last = (named or body[::-1])[0], shared[-1].get("name")
     moves = "slides" if slides else "turns"
     why = f"the {'usual name' if named else 'last'} of the links behind joint {last}, number {len(shared)} that {moves}"
+    beyond = [
+        each for way in ways.values() if shared[-1] in way for each in _moving(way[way.index(shared[-1]) :], True)
+    ]
+    if beyond and not slides:
+        why += f"; joint {beyond[0].get('name')}, which slides behind it, is taken for no part of the arm"
     return tip, f"{tip}, {why}"
 
 
