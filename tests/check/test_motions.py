@@ -9,7 +9,9 @@ import pytest
 
 from armscope.check.motion_readings import Samples, explained, read_otherwise
 from armscope.check.motions import check_moving
+from armscope.check.suspicion import refuse_problems
 from armscope.core.inputs import InputError
+from armscope.motion.pipeline import diagnose_motion
 from armscope.recordings.motions import Motions
 from tests.motion.moving import moved, robot
 
@@ -91,6 +93,32 @@ def test_dead_and_saturated_channels_are_named(good: Motions) -> None:
     with np.errstate(all="raise"):
         assert "problem tau3_nm is 0 in every row" in said(replace(good, effort=dead))
     assert "hint tau2_nm stays at -20" in said(replace(good, effort=cut))
+    for most in (20, 8):  # the less a channel shows, the longer it stays at that
+        cut[:, 1] = np.clip(cut[:, 1], -most, most)
+        assert "was not read" not in said(replace(good, effort=cut))
+
+
+def test_samples_that_are_missing_are_told_with_their_place_and_what_is_left(good: Motions) -> None:
+    there = (good.run != "path 2") | (good.time < 2.0) | (good.time >= 5.0)
+    told = said(good.rows(there))
+    assert "hint run path 2: samples are missing for 3 s from 1.995 s on. 4.99 s of motion are left" in told
+    assert "missing" not in said(good)
+    kinds = {notice.kind: notice.text for notice in diagnose_motion(robot(), good.rows(there)).verdict.notices}
+    assert "3 s from 1.995 s on" in kinds["gap in time"]
+
+
+def test_a_motion_that_is_too_short_is_told_in_the_words_of_the_diagnosis(good: Motions) -> None:
+    short = good.rows((good.run == "path 1") & (good.time < 0.8))
+    found = check_moving(short, robot())
+    words = [each for each in found.suspicions if each.weight == "problem"]
+    told = "no motion without gaps that is longer than 0.8 s"
+    assert [each.statement.partition(":")[0] for each in words] == [told]
+    with pytest.raises(InputError, match=told) as refused:
+        diagnose_motion(robot(), short)
+    assert words[0].statement == f"{refused.value.found}: {refused.value.rule}"
+    with pytest.raises(InputError, match=r"Record ten seconds or more\.$"):
+        refuse_problems(found.suspicions, "motions.csv")
+    assert "longer than" not in said(good.rows(good.time < 2.5))
 
 
 def test_a_run_that_repeats_another_is_no_test(good: Motions) -> None:

@@ -65,6 +65,26 @@ class MotionRules(Constants):
         "times less than as stated that another reading must leave",
         "judgement: no chance of a few rows does so much",
     )
+    turned: tuple[float, float, float] = constant(
+        (np.pi / 2, np.pi, -np.pi / 2),
+        "by which a joint's zero is tried elsewhere",
+        "convention: other D-H tables, and makers' zeros, differ by quarter turns",
+        unit="rad",
+    )
+    other_zero: float = constant(
+        2.0,
+        "times less that joints' torques must leave, shares multiplied, with a zero elsewhere",
+        "measured: 1.25 at most in 416 recordings whose zeros are right; turned by 90 deg at a random joint between "
+        "the first and the last, 408 of them are told, with the right joint",
+    )
+    no_other_zero: float = constant(
+        100.0,
+        "times less, from which results of the table mean nothing",
+        "judgement: of a wrist that carries little it is less, and the rest of the arm can be diagnosed",
+    )
+    least_left: float = constant(
+        1e-6, "share of a torque that masses leave at the least", "judgement: below any recording's noise"
+    )
     driving: float = constant(
         0.5,
         "of a torque, beyond masses and acceleration, that friction of the wrong sign must explain",

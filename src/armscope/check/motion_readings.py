@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.check.motion_constants import MOTION
 from armscope.check.suspicion import Suspicion
+from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.robot.dynamics import MovingArm
@@ -103,6 +104,109 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
             f"masses explain {_share(stated)} of the torque, and {_share(best)} with {what} in the order {told}",
             "Number the columns in the order of the arm's joints, from the base.",
         )
+
+
+def zeros_elsewhere(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
+    """Joints whose angles the masses' torque takes to be a quarter or half turn from where robot.yaml has them.
+
+    As recorded, every torque may have either sign, or gravity point the other way: a zero elsewhere says more than
+    these. Not of the last joint: there, a load that is not stated looks like a zero.
+
+    Yields:
+        The joint and the turn that say most, a problem where they say so much that nothing else would hold.
+    """
+    if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
+        return
+    few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
+    gravity = arm.gravity_torques(few.q, arm.model.gravity.linear)
+    turned = [_left_by_masses(few, few.q, arm, -2 * gravity), _left_by_masses(few, few.q, arm, either_sign=True)]
+    stated, tried = min(turned, key=lambda left: float(np.log(left).sum())), []
+    for j in np.flatnonzero(~arm.sliding[:-1]).tolist():
+        for turn in MOTION.turned:
+            moved = few.q.copy()
+            moved[:, j] += turn
+            told = float(np.log(stated / _left_by_masses(few, moved, arm)).sum())
+            tried.append((told, j, float(np.degrees(turn))))
+    told, j, turn = max(tried, default=(0.0, 0, 0.0))
+    if told > np.log(MOTION.other_zero):
+        times = f"{rounded(float(np.exp(told)))} times less of all joints' torques"
+        statement = f"with q{j + 1} {turn:+.0f} deg the stated masses leave {times}"
+        cure = (
+            f"Is the zero of joint {j + 1} that of robot.yaml (theta_offset_deg)? A load that is not stated, or an arm "
+            "that stands otherwise, can look alike."
+        )
+        yield Suspicion("problem" if told > np.log(MOTION.no_other_zero) else "hint", statement, cure)
+
+
+def _left_by_masses(
+    samples: Samples, q: Array, arm: MovingArm, more: Array | float = 0.0, either_sign: bool = False
+) -> Array:
+    """(m,) share of each torque beyond friction that the stated masses leave.
+
+    Args:
+        samples: of the motion.
+        q: (N, m) other positions.
+        arm: as stated.
+        more: (N, m) torque beside that of the masses.
+        either_sign: whether a torque may have the sign opposite to theirs.
+
+    Returns:
+        Shares.
+    """
+    rigid = arm.torques(q, samples.dq, samples.ddq, arm.inertial) + more
+    left = []
+    for recorded, asked in beyond_friction(samples, rigid):
+        whole, along = max(float(recorded @ recorded), 1e-300), float(asked @ recorded)
+        along = along if either_sign else max(along, 0.0)
+        left.append(max(1 - along**2 / max(float(asked @ asked), 1e-300) / whole, MOTION.least_left))
+    return np.array(left)
+
+
+def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> list[tuple[int, Suspicion]]:
+    """Torques that follow another joint's motion and hardly their own: friction tells it where masses ask for little.
+
+    Args:
+        samples: differenced over a twentieth of a second.
+        arm: as stated.
+        names: of the columns of torque.
+
+    Returns:
+        For every such column its number and the problem; none unless each of them, put in order, is told far better.
+    """
+    if len(samples.q) < MOTION.reading_samples or arm.n_motors < 2:
+        return []
+    from scipy.optimize import linear_sum_assignment  # takes long to import: a table that is refused needs none
+
+    few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
+    left = _left_by_motion(few, arm)
+    told_by = linear_sum_assignment(np.log(left))[1]
+    moved = np.flatnonzero(told_by != np.arange(arm.n_motors))
+    own, others = left[moved, moved], left[moved, told_by[moved]]
+    if np.any(own <= MOTION.clearly * others) or np.any(1 - others < MOTION.explained):
+        return []
+    found = []
+    for j, of, now, then in zip(moved.tolist(), told_by[moved].tolist(), own, others, strict=True):
+        statement = (
+            f"{names[j]} follows joint {of + 1}: its speed, acceleration and masses explain {_share(1 - then)} of it, "
+            f"those of joint {j + 1} {_share(1 - now)}"
+        )
+        cure = f"Are torques exchanged? Call the column that of joint {of + 1}."
+        found.append((j, Suspicion("problem", statement, cure)))
+    return found
+
+
+def _left_by_motion(samples: Samples, arm: MovingArm) -> Array:
+    """(m, m) share of each torque's power that offset, friction, rotor and masses of each joint leave."""
+    rigid = arm.torques(samples.q, samples.dq, samples.ddq, arm.inertial)
+    effort = samples.effort - samples.effort.mean(axis=0)
+    power = np.maximum(np.sum(effort**2, axis=0), 1e-300)
+    left = np.ones((arm.n_motors, arm.n_motors))
+    for j in range(arm.n_motors):
+        dq = samples.dq[:, j]
+        ordinary = np.column_stack([np.ones(len(dq)), np.sign(dq), dq, samples.ddq[:, j], rigid[:, j]])
+        missed = effort - ordinary @ np.linalg.lstsq(ordinary, effort, rcond=None)[0]
+        left[:, j] = np.sum(missed**2, axis=0) / power
+    return np.asarray(np.clip(left, 1e-12, None))
 
 
 def _share(of: float) -> str:

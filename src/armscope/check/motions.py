@@ -13,15 +13,18 @@ from armscope.check.motion_channels import odd_channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_links import links_beside_motors
-from armscope.check.motion_readings import Samples, beyond_friction, read_otherwise
-from armscope.check.suspicion import Suspicion, verdict_lines
+from armscope.check.motion_readings import Samples, beyond_friction, exchanged, read_otherwise, zeros_elsewhere
+from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.motion.check import channels, doubts_about, refuse_other_joints
-from armscope.motion.samples.timing import mended_rows
+from armscope.motion.check import channels, doubts_about, refuse_other_joints, too_short
+from armscope.motion.samples.timing import gaps, mended_rows
 from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
+
+SIGN = "the sign opposite to what moves the stated masses"
+"""What is said of a torque that masses alone call turned."""
 
 
 @dataclass(frozen=True)
@@ -58,17 +61,31 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     kept, time, notices = mended_rows(motions)
     told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*turns, *notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
+    told += [Suspicion("hint", notice.text.rstrip(".")) for notice in gaps(even)]
     broken = list(_leaps(motions))
-    found = [*broken, *told, *_dead(motions), *_units(motions)]
+    found = [*_too_short(even), *broken, *told, *_dead(motions), *_units(motions)]
     found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
     if arm is not None and not broken:  # speeds across a leap are no speeds
         runs = {run: _coarse(even, run) for run in even.runs}
         samples = _samples([few for _, few in runs.values()])
-        of_size = _torques(even, samples, arm) if motions.kind == "torque" else iter(())
-        found += odd_channels(even, samples, arm, of_size)
-        found += read_otherwise(samples, arm)
+        found += _readings(even, samples, arm)
         found += other_clock(even, runs, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))
+
+
+def _readings(motions: Motions, samples: Samples, arm: MovingArm) -> list[Suspicion]:
+    """What torques say of units, signs, order and zeros; where order or a zero says more than signs, that alone."""
+    of_size = _torques(motions, samples, arm) if motions.kind == "torque" else iter(())
+    odd, order = list(odd_channels(motions, samples, arm, of_size)), list(read_otherwise(samples, arm))
+    if order:
+        return [*order, *odd]
+    swapped = exchanged(samples, arm, channels(motions))
+    if swapped:
+        names = tuple(f"{channels(motions)[j]} " for j, _ in swapped)
+        return [*(each for _, each in swapped), *(each for each in odd if not each.statement.startswith(names))]
+    zeros = list(zeros_elsewhere(samples, arm))
+    sure = any(each.weight == "problem" for each in zeros)
+    return [*zeros, *(each for each in odd if not (sure and each.statement.endswith(SIGN)))]
 
 
 def _contents(motions: Motions) -> Iterator[str]:
@@ -91,6 +108,11 @@ def _dead(motions: Motions) -> Iterator[Suspicion]:
     for name, values in zip(channels(motions), motions.effort.T, strict=True):
         if np.ptp(values) == 0:
             yield Suspicion("problem", f"{name} is {values[0]:g} in every row", "Is the channel recorded?")
+
+
+def _too_short(motions: Motions) -> Iterator[Suspicion]:
+    if (short := too_short(motions)) is not None:
+        yield Suspicion("problem", f"{short.found}: {short.rule}", short.cure, TOO_SHORT)
 
 
 def _leaps(motions: Motions) -> Iterator[Suspicion]:
@@ -189,7 +211,7 @@ def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Sus
             cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
             if arm.model.gravity.linear[2] > 0:
                 cure = f"gravity_m_s2 of robot.yaml points up: does the arm hang from a ceiling? If it does: {cure}"
-            yield Suspicion("problem", f"{name} has the sign opposite to what moves the stated masses", cure)
+            yield Suspicion("problem", f"{name} has {SIGN}", cure)
         elif not 1 / MOTION.other_size < factor < MOTION.other_size:
             # a load that nobody stated does that to a wrist, and is no mistake of the table
             far = not 1 / MOTION.no_load <= factor <= MOTION.no_load or not 1 / MOTION.no_load <= most <= MOTION.no_load

@@ -11,6 +11,9 @@ from armscope.core.inputs import InputError
 GRAVITY = "gravity"
 """Kind of a suspicion about which way gravity is stated to point."""
 
+TOO_SHORT = "too short"
+"""Kind of a problem with which nothing can be diagnosed, whatever a user asks for."""
+
 
 @dataclass(frozen=True)
 class Suspicion:
@@ -43,5 +46,6 @@ def refuse_problems(suspicions: Sequence[Suspicion], source: object) -> None:
     problems = [each for each in suspicions if each.weight == "problem"]
     if problems:
         more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
-        cure = f"{problems[0].cure} --anyway diagnoses it all the same.".strip()
+        anyway = "" if problems[0].kind == TOO_SHORT else "--anyway diagnoses it all the same."
+        cure = f"{problems[0].cure} {anyway}".strip()
         raise InputError(source, "", problems[0].statement, f"no result of it would hold{more}", cure)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
-from armscope.motion.samples.constants import READING
-from armscope.motion.samples.timing import coarse_steps, limits
+from armscope.motion.samples.constants import FILTER, READING
+from armscope.motion.samples.timing import coarse_steps, limits, parted
 from armscope.motion.samples.unread import unread
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
@@ -50,7 +51,8 @@ def doubts_about(motions: Motions) -> list[Notice]:
         InputError: none moves, or temperatures are no arm's.
     """
     _refuse_temperatures(motions)
-    of_channels = [*_cut_off(motions), *_unread(motions), *_coarse(motions), *_no_speeds(motions)]
+    at = _at_limits(motions)
+    of_channels = [*_cut_off(motions, at), *_unread(motions, at), *_coarse(motions), *_no_speeds(motions)]
     return [*_still_joints(motions), *_one_way(motions), *of_channels]
 
 
@@ -121,12 +123,17 @@ def _one_way(motions: Motions) -> list[Notice]:
     return notices
 
 
-def _cut_off(motions: Motions) -> list[Notice]:
+def _at_limits(motions: Motions) -> NDArray[np.bool_]:
+    """(N, m) whether a channel shows the least or the most that it can."""
     at = np.zeros(motions.effort.shape, dtype=np.bool_)
     for run in motions.runs:
         there = motions.run == run
         least, most = limits(motions.effort[there])
         at[there] = (motions.effort[there] <= least) | (motions.effort[there] >= most)
+    return at
+
+
+def _cut_off(motions: Motions, at: NDArray[np.bool_]) -> list[Notice]:
     notices = []
     for j, name in enumerate(channels(motions)):
         if at[:, j].any():
@@ -142,8 +149,9 @@ def _cut_off(motions: Motions) -> list[Notice]:
     return notices
 
 
-def _unread(motions: Motions) -> list[Notice]:
-    idle, notices = unread(motions.run, motions.time, motions.q, motions.effort), []
+def _unread(motions: Motions, at: NDArray[np.bool_]) -> list[Notice]:
+    """Of channels that were not read; one that stays at its limit was, and is told as cut off."""
+    idle, notices = unread(motions.run, motions.time, motions.q, motions.effort) & ~at, []
     for j in np.flatnonzero(idle.any(axis=0)):
         rows = np.flatnonzero(idle[:, j])
         text = (
@@ -153,6 +161,17 @@ def _unread(motions: Motions) -> list[Notice]:
         )
         notices.append(Notice("not read", text))
     return notices
+
+
+def too_short(motions: Motions) -> InputError | None:
+    """What is wrong where no piece of motion without gaps is long enough; of mended time."""
+    period, pieces = parted(motions)
+    longest = max(float(np.ptp(motions.time[rows])) for _, rows in pieces) + period
+    if longest > FILTER.shortest_s:
+        return None
+    found = f"no motion without gaps that is longer than {longest:.3g} s"
+    rule = f"more than {FILTER.shortest_s:g} s are needed, of which {FILTER.edge_s:g} s at either end take no part"
+    return InputError(motions.source, "column time_s", found, rule, "Record ten seconds or more.")
 
 
 def refuse_few(layout: TorqueLayout, rows: int, source: str) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion
+from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.pauses import pauses_in_words
@@ -26,7 +26,7 @@ from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_lin
 from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
-from armscope.motion.samples.timing import Stretch, limits, mended, stretches
+from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.by_run import friction_by_run
@@ -167,7 +167,7 @@ def diagnose_motion(
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
-    notices += [*told, *little_excited(selected)]
+    notices += [*told, *gaps(motions), *little_excited(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = None
     if test:
@@ -214,12 +214,14 @@ def _carried(motions: Motions) -> dict[str, float]:
 
 def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:
     """Stretches to fit, and stretches that take no part; effort as torque."""
+    if (short := too_short(motions)) is not None:
+        raise short
     train: list[Stretch] = []
     test: list[Stretch] = []
     ends = {run: limits(motions.effort[motions.run == run]) for run in motions.runs}
     idle = unread(motions.run, motions.time, motions.q, motions.effort)
     for stretch in stretches(motions):
-        if len(stretch) > 4 * FILTER.edge_s * stretch.rate:
+        if len(stretch) > FILTER.shortest_s * stretch.rate:
             cut = (stretch.effort <= ends[stretch.run][0]) | (stretch.effort >= ends[stretch.run][1])
             own = motions.run == stretch.run
             at = np.searchsorted(motions.time[own], stretch.time).clip(0, np.count_nonzero(own) - 1)
@@ -229,9 +231,6 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
     if not train and test:
         rule = "a run at least takes part in the fit"
         raise InputError("--held-out", "", ", ".join(held_out), rule, "Hold out fewer.")
-    if not train:
-        rule = f"a motion without gaps lasts at least {4 * FILTER.edge_s:g} s"
-        raise InputError(motions.source, "column time_s", "no such motion", rule, "Record a longer motion.")
     return train, test
 
 

@@ -35,6 +35,7 @@ class TimingRules(Constants):
     gap_s: float = constant(
         0.05, "a shorter step parts no run", "judgement: arms hardly bend their path in it", unit="s"
     )
+    named: int = constant(5, "gaps in time that are named of a run", "convention: more is a list, not a sentence")
     told_apart: float = constant(
         0.1,
         "error of a step, from angle and velocity, with which it is whole",
@@ -68,6 +69,9 @@ class FilterRules(Constants):
     )
     nyquist: float = constant(0.8, "largest cut-off", "convention: of the protocol", unit="half sampling rates")
     edge_s: float = constant(0.5, "left out at both ends of every stretch", "convention: of the protocol", unit="s")
+    shortest_s: float = constant(
+        2.0, "a stretch that is no longer takes no part", "derived: half of it is ends that are left out", unit="s"
+    )
     rows_per_cutoff: float = constant(
         3.0,
         "rows kept, per cycle of the cut-off frequency",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -206,17 +207,44 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
 
 def stretches(motions: Motions) -> Iterator[Stretch]:
     """The runs on even grids, parted where samples are missing; all at one rate, that of the middle one of them."""
+    period, pieces = parted(motions)
+    for run, rows in pieces:
+        if len(rows) > 1:
+            yield _even(motions, rows, run, period)
+
+
+def parted(motions: Motions) -> tuple[float, list[tuple[str, Indices]]]:
+    """The common period, s, and run and rows of every piece that no gap in time parts."""
     usual = {}
     for run in motions.runs:
         usual[run] = float(np.median(np.diff(motions.time[motions.run == run])))
     period = float(np.percentile(list(usual.values()), 50, method="higher"))
     period = round(period, 4) if period > 5e-4 else period
+    pieces = []
     for run in motions.runs:
         rows = np.flatnonzero(motions.run == run)
         gaps = np.flatnonzero(np.diff(motions.time[rows]) > max(TIMING.gap * max(usual[run], period), TIMING.gap_s))
-        for part in np.split(rows, gaps + 1):
-            if len(part) > 1:
-                yield _even(motions, part, run, period)
+        pieces += [(run, part) for part in np.split(rows, gaps + 1)]
+    return period, pieces
+
+
+def gaps(motions: Motions) -> list[Notice]:
+    """Where samples are missing in a run, for how long, and what is left; of mended time."""
+    told, pieces = [], parted(motions)[1]
+    for run in motions.runs:
+        own = [motions.time[rows] for of, rows in pieces if of == run]
+        missing = [(one[-1], other[0] - one[-1]) for one, other in pairwise(own)]
+        if missing:
+            label = f"run {run}" if run else "the table"
+            places = ", ".join(f"{length:.3g} s from {since:.6g} s on" for since, length in missing[: TIMING.named])
+            more = f", and {len(missing) - TIMING.named} more" if len(missing) > TIMING.named else ""
+            left = sum(float(np.ptp(each)) for each in own)
+            text = (
+                f"{label}: samples are missing for {places}{more}. {left:.4g} s of motion are left; each piece is "
+                "taken by itself."
+            )
+            told.append(Notice("gap in time", text))
+    return _once(told)
 
 
 def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretch:

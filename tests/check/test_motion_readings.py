@@ -1,0 +1,108 @@
+"""Torques of another joint and zeros elsewhere are told where nothing else is meant; good tables are not accused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from armscope.check.motions import check_moving
+from armscope.recordings.motions import Motions
+from armscope.robot.description import RobotDescription
+from armscope.robot.dynamics import MovingArm, build_moving_arm
+from tests.motion.moving import path
+from tests.seeds import seeds
+
+DRY, VISCOUS = np.array([4.0, 5.0, 2.0, 0.8, 0.5]), np.array([3.0, 4.0, 1.5, 0.6, 0.4])
+ROTOR = np.array([0.5, 0.6, 0.2, 0.05, 0.03])
+LIGHT = {"mass_kg": 0.05, "com_mm": [0, 5, 10], "inertia_kg_m2": [1e-4, 1e-4, 1e-4, 0, 0, 0]}
+
+
+def wristed() -> MovingArm:
+    """An arm whose last two joints carry next to nothing: friction is most of their torque."""
+    rows = [(0, -90, 300), (400, 0, 0), (0, 90, 0), (0, -90, 350), (0, 0, 80)]
+    bodies = [(10, [0, 40, 0]), (8, [-180, 0, 20]), (3, [10, 0, 60])]
+    of = [{"mass_kg": m, "com_mm": c, "inertia_kg_m2": [0.1, 0.1, 0.1, 0, 0, 0]} for m, c in bodies]
+    joints = [dict(zip(("a_mm", "alpha_deg", "d_mm"), row, strict=True)) for row in rows]
+    return build_moving_arm(
+        RobotDescription.model_validate({"name": "wristed", "dh": {"joints": joints}, "links": [*of, LIGHT, LIGHT]})
+    )
+
+
+@pytest.fixture(scope="module", params=seeds(1, 2, 3))
+def good(request: pytest.FixtureRequest) -> Motions:
+    return recorded(request.param)
+
+
+def recorded(seed: int, carried: float = 0.0) -> Motions:
+    """One run of the arm with wrist, which carries so many kg at its tool point, not stated."""
+    arm, rng = wristed(), np.random.default_rng(seed)
+    time, q, dq, ddq = path(rng, arm.n_motors, 20.0, 200.0)
+    torque = arm.torques(q, dq, ddq, arm.inertial + carried * arm.point_load())
+    torque += DRY * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
+    torque += 0.02 * torque.std(axis=0) * rng.normal(size=torque.shape)
+    run = np.full(len(time), "", dtype="<U1")
+    return Motions(time, q, torque, "torque", np.zeros(5, dtype=np.bool_), run)
+
+
+def said(motions: Motions) -> list[str]:
+    return [f"{each.weight} {each.statement}" for each in check_moving(motions, wristed()).suspicions]
+
+
+def test_a_good_table_is_not_accused(good: Motions) -> None:
+    assert said(good) == []
+
+
+def test_exchanged_torques_of_joints_that_carry_little_are_told_by_their_friction(good: Motions) -> None:
+    told = said(replace(good, effort=good.effort[:, [0, 1, 2, 4, 3]]))
+    assert len(told) == 2
+    assert told[0].startswith("problem tau4_nm follows joint 5: ")
+    assert told[1].startswith("problem tau5_nm follows joint 4: ")
+
+
+def test_every_exchange_of_two_torques_is_a_problem_of_their_order_alone(good: Motions) -> None:
+    for one, other in combinations(range(5), 2):
+        order = list(range(5))
+        order[one], order[other] = other, one
+        told = said(replace(good, effort=good.effort[:, order]))
+        in_order = f"with torques in the order {' '.join(str(j + 1) for j in order)}"
+        assert in_order in told[0] or f"tau{one + 1}_nm follows joint {other + 1}:" in told[0]
+
+
+def test_joints_that_move_alike_are_not_exchanged() -> None:
+    """Where two joints always turn together, each torque follows the other's motion as well as its own."""
+    motions = recorded(4)
+    alike = replace(motions, q=motions.q.copy(), effort=motions.effort.copy())
+    alike.q[:, 4], alike.effort[:, 4] = alike.q[:, 3] + 0.3, 0.6 * alike.effort[:, 3]
+    assert not [each for each in said(alike) if "follows" in each]
+
+
+@pytest.mark.parametrize(("joint", "turn"), [(2, 90), (2, -90), (3, 90), (3, 180), (3, -90)])
+def test_a_zero_elsewhere_is_told_with_joint_and_turn_and_no_sign_is_blamed(
+    good: Motions, joint: int, turn: int
+) -> None:
+    off = np.where(np.arange(1, 6) == joint, np.radians(turn), 0.0)
+    (told,) = said(replace(good, q=good.q + off))
+    back = "+180" if turn == 180 else f"{-turn:+d}"
+    assert told.startswith(f"problem with q{joint} {back} deg the stated masses leave ")
+
+
+def test_a_shoulder_turned_by_half_a_turn_is_like_gravity_that_points_up_so_that_no_zero_is_sure(good: Motions) -> None:
+    told = said(replace(good, q=good.q + np.array([0, np.pi, 0, 0, 0])))
+    assert any("tau2_nm has the sign opposite" in each for each in told)
+    assert not any(each.startswith("problem with q") for each in told)
+
+
+def test_a_turned_sign_is_no_zero_elsewhere(good: Motions) -> None:
+    for joint in (1, 2, 3):
+        signs = np.where(np.arange(1, 6) == joint, -1.0, 1.0)
+        told = said(replace(good, effort=good.effort * signs))
+        assert len(told) == 1
+        assert told[0].startswith(f"problem tau{joint}_nm has the sign opposite")
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_a_load_that_is_not_stated_is_no_zero_elsewhere(seed: int) -> None:
+    assert not [each for each in said(recorded(seed, carried=2.0)) if "leave" in each]
