@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pinocchio as pin
 import pytest
+import yaml
 from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array
@@ -159,10 +160,9 @@ def carrying(mass: float, at: list[float]) -> Spec:
 
 
 def load(cure: str) -> Cured:
-    """Of moments in the last joint's frame: its row is the identity but for a along x."""
-    mass, *moments = told(cure.partition(" in the last")[0], "as stated and mass ")
-    at = 1e3 * np.array(moments) / mass - [300, 0, 0] if moments else np.zeros(3)
-    return carrying(mass, at.tolist()), as_it_is, as_it_is
+    """Typed into robot.yaml as printed."""
+    content = yaml.safe_load(cure.partition("`tool_load` of robot.yaml to ")[2].partition(" (±")[0])
+    return edited(lambda spec: spec.update(tool_load=content)), as_it_is, as_it_is
 
 
 def gravity(cure: str) -> Cured:

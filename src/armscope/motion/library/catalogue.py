@@ -5,6 +5,7 @@ from __future__ import annotations
 from armscope.motion.library import clauses, remedies, remedies_of_laws
 from armscope.motion.library.causes import Cause
 from armscope.motion.library.changes_catalogue import CHANGES
+from armscope.motion.library.remedies_of_loads import as_tool_load
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.verdict.effects import UNKNOWN
 
@@ -210,7 +211,7 @@ PAYLOAD = Cause(
     in_bodies=True,
     labels=_MOMENTS,
     clause=clauses.payload_clause,
-    remedy=remedies.as_stated_and,
+    remedy=as_tool_load,
 )
 BODY = Cause(
     "attached_body",

@@ -28,6 +28,7 @@ class Fitted:
         arm: as stated.
         of_law: numbers of the law that it follows; none where it follows none.
         place: where it is, as in "link 2" or "joint 3 from joint 2".
+        run: the only one that has it; empty where all have.
     """
 
     cure: str
@@ -35,6 +36,7 @@ class Fitted:
     arm: MovingArm
     of_law: tuple[float, ...] = ()
     place: str = ""
+    run: str = ""
 
     @property
     def first(self) -> Parameter:

@@ -51,4 +51,5 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
     sure = say if determined(parameters) else None
     unsure = "" if determined(parameters) else placed.cause.open_cure
-    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location)) if sure else unsure or own
+    run = placed.runs[0] if placed.runs else ""
+    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location, run)) if sure else unsure or own
