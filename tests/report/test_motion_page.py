@@ -176,6 +176,22 @@ def test_eleven_tasks_are_printed_on_one_page(found: MotionDiagnosis, tmp_path: 
     assert len(re.findall(rb"/Type ?/Page\b", printed.read_bytes())) == 1
 
 
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_the_table_of_the_work_order_fits_a_telephone(found: MotionDiagnosis, tmp_path: Path) -> None:
+    write_motion_report(found, "motions.csv", tmp_path)
+    page = tmp_path / "work-order.html"
+    measure = (
+        "<script>for (const each of document.querySelectorAll('.scroll')) "
+        "each.dataset.beyond = each.scrollWidth - each.clientWidth;</script></body>"
+    )
+    page.write_text(page.read_text(encoding="utf-8").replace("</body>", measure), encoding="utf-8")
+    flags = ("--headless", "--no-sandbox", "--disable-gpu", "--window-size=420,1800", "--dump-dom")
+    told = subprocess.run([str(CHROMIUM), *flags, page.as_uri()], check=True, capture_output=True, timeout=120).stdout
+    beyond = re.findall(rb'data-beyond="(-?\d+)"', told)
+    assert beyond
+    assert all(int(each) <= 0 for each in beyond)
+
+
 def test_masses_are_told_to_be_taken_along_where_they_matter(
     found: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
