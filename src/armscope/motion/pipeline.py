@@ -50,13 +50,13 @@ from armscope.motion.summary.judgement import (
     found_causes,
     headline,
     joint_backgrounds,
-    lasting_words,
     unexplained,
 )
-from armscope.motion.summary.lasting import lasting_torques
+from armscope.motion.summary.lasting import lasting_torques, told_of_lasting
 from armscope.motion.summary.late_friction import told_late
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
+from armscope.motion.summary.one_clock import as_one, joints_in_motion, told_of_one_clock
 from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.torque_atlas import torque_atlas
@@ -65,7 +65,6 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.diagnosis import Atlas
 from armscope.verdict.schema import Notice
-from armscope.verdict.wording import capitalised
 
 
 @dataclass(frozen=True)
@@ -258,9 +257,12 @@ def _judged(
     off = max(sizes["masses"], sizes["link masses"])
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     answer, mismatch = answer_of(found, left, errors)
+    moving = joints_in_motion(selected.rows.still)
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(found, errors, lasting, likeliest_in_words(selected) if errors.only_unnamed else ""),
+        headline=headline(
+            as_one(found, moving), errors, lasting, likeliest_in_words(selected) if errors.only_unnamed else ""
+        ),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
@@ -271,7 +273,7 @@ def _judged(
         waterfall=steps,
         identifiable=identifiable(selected),
         preparation="",
-        notices=(Notice("lasting torque", f"{capitalised(lasting_words(lasting))}."),) if len(lasting) > 1 else (),
+        notices=(*told_of_one_clock(found, moving), *told_of_lasting(lasting)),
         rows=len(selected.rows),
         samples=0,
         runs=(),

@@ -18,7 +18,8 @@ from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.doubts import doubt_of
 from armscope.motion.summary.intervals import Sureness, errors_of
-from armscope.motion.summary.lasting import LastingTorque
+from armscope.motion.summary.lasting import LastingTorque, lasting_words
+from armscope.motion.summary.one_clock import clock_together, joints_in_motion
 from armscope.motion.summary.rivals import listed_rivals
 from armscope.motion.summary.words import clause, cure
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
@@ -28,7 +29,7 @@ from armscope.verdict.wording import capitalised, percent, spelled
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[float]) -> list[tuple[int, FoundCause]]:
-    """Every chosen cause with what is known about it, largest first, beside its candidate's number.
+    """Every chosen cause with what is known about it, in the order of `clock_together`, beside its candidate's number.
 
     Args:
         selected: the selection.
@@ -44,7 +45,9 @@ def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[f
         placed = selected.rows.layout.placed[effect.candidate]
         agreed = agreement(selected, effect.candidate)
         found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (explained[number], agreed))))
-    return sorted(found, key=lambda pair: -pair[1].share)
+    numbers = {id(cause): number for number, cause in found}
+    in_order = clock_together([cause for _, cause in found], joints_in_motion(selected.rows.still))
+    return [(numbers[id(cause)], cause) for cause in in_order]
 
 
 def _found(
@@ -152,15 +155,6 @@ def unexplained(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -
     if lasting:
         return UnexplainedTorque(True, f"joint {lasting[0].joint + 1}", lasting[0].driver, lasting_words(lasting[:1]))
     return UnexplainedTorque(False)
-
-
-def lasting_words(lasting: Sequence[LastingTorque]) -> str:
-    """What lasts and has no law, joint by joint, in a sentence without its full stop."""
-    told = [
-        f"{percent(each.of_torque)} of the torque of joint {each.joint + 1}, following the {each.driver}"
-        for each in lasting
-    ]
-    return f"something lasts that has no law here: {'; '.join(told)}"
 
 
 @dataclass(frozen=True)

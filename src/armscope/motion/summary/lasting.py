@@ -9,7 +9,7 @@ judged by the same residual shifted in time, which lasts as long and follows not
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +21,8 @@ from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import LASTING
+from armscope.verdict.schema import Notice
+from armscope.verdict.wording import capitalised, percent
 
 Driver = tuple[str, int]
 """A quantity, and the joint (from 0) that it is of."""
@@ -162,3 +164,17 @@ def _hats(values: Array, knots: int) -> Array:
 def _pair(one: Array, other: Array) -> Array:
     first, second = (_hats(values, LASTING.knots_of_pairs) for values in (one, other))
     return np.asarray((first[:, :, None] * second[:, None, :]).reshape(len(one), -1))
+
+
+def lasting_words(lasting: Sequence[LastingTorque]) -> str:
+    """What lasts and has no law, joint by joint, in a sentence without its full stop."""
+    told = [
+        f"{percent(each.of_torque)} of the torque of joint {each.joint + 1}, following the {each.driver}"
+        for each in lasting
+    ]
+    return f"something lasts that has no law here: {'; '.join(told)}"
+
+
+def told_of_lasting(lasting: Sequence[LastingTorque]) -> list[Notice]:
+    """A notice on all of it, where the headline has one of several."""
+    return [Notice("lasting torque", f"{capitalised(lasting_words(lasting))}.")] if len(lasting) > 1 else []

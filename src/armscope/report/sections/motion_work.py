@@ -10,6 +10,7 @@ from typing import Any
 
 from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
+from armscope.motion.summary.one_clock import ONE_CLOCK, as_one, of_one_clock
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
@@ -41,9 +42,13 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     verdict = subject.verdict
     background, *after = subject.found.entered
     expected_after = {cause.title: error for cause, error in zip(verdict.effects, after, strict=True)}
+    moving = len(subject.moving)
+    for cause in of_one_clock(verdict.effects, moving):  # they stand together: one step, with the error after the last
+        expected_after[ONE_CLOCK] = expected_after[cause.title]
+    causes = as_one(verdict.effects, moving)
     masses = masses_matter(subject)
     tasks = []
-    for number, cause in enumerate(subject.main, start=1):
+    for number, cause in enumerate((each for each in causes if not each.minor), start=1):
         card = motion_card(cause, number)
         rivals = tuple(other.name for other in card.alternatives if other.too_close)
         expected = error_in_words(expected_after[cause.title])
@@ -55,7 +60,7 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         "more": tasks[IN_FULL:],
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
         "masses": masses,
-        "minor": [cause.title for cause in subject.minor],
+        "minor": [cause.title for cause in causes if cause.minor],
         "now": error_in_words(held_out.stated),
         "background": error_in_words(background),
         "model": error_in_words(held_out.model),
