@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.signal import welch
@@ -31,9 +32,20 @@ def chosen_cutoff(arm: MovingArm, stretches: Sequence[Stretch], asked: float | N
     Returns:
         The filters and the decimation; what the fit tells besides.
     """
-    highest = _highest_hz(stretches)
+    by_run = _highest_hz(stretches)
+    highest = max(by_run.values())
     how, first = _chosen(arm, stretches, asked, highest)
-    return _resolved(how, sum(map(len, stretches)), asked, highest), first
+    return _by_run(_resolved(how, sum(map(len, stretches)), asked, highest), by_run), first
+
+
+def _by_run(how: Preparation, highest: Mapping[str, float]) -> Preparation:
+    """With each run's positions low-passed where its own motion ends.
+
+    Noise of the acceleration in a slow run, beside a fast one that asks for a wide band, makes inertias look small.
+    """
+    own = {run: _prepared(how.rate, how.cutoff, "", hz).position_cutoff for run, hz in highest.items()}
+    slower = tuple((run, hz) for run, hz in own.items() if hz < CUTOFF.slower_run * how.position_cutoff)
+    return replace(how, of_runs=slower)
 
 
 def _resolved(how: Preparation, samples: int, asked: float | None, highest: float) -> Preparation:
@@ -93,17 +105,21 @@ def _prepared(rate: float, cutoff: float, source: str, highest: float) -> Prepar
     return preparation(rate, cutoff, source, close if close < cutoff else CUTOFF.beyond_motion * highest)
 
 
-def _highest_hz(stretches: Sequence[Stretch]) -> float:
-    """Hz above which positions hold noise only: where their spectra come down to that of the highest frequencies.
+def _highest_hz(stretches: Sequence[Stretch]) -> dict[str, float]:
+    """Hz above which positions of each run hold noise only: where they come down to that of the highest frequencies.
 
-    A run that was sampled more slowly has next to no noise there: it counts by that of the others.
+    A run that was sampled more slowly has next to no noise there: it counts by that of the others. One that shows no
+    motion has what the others have.
     """
-    highest, spectra = 0.0, [_spectrum(stretch) for stretch in stretches]
+    spectra = [_spectrum(stretch) for stretch in stretches]
     floor = np.max([np.median(power[-len(power) // 4 :], axis=0) for _, power in spectra], axis=0)
-    for frequency, power in spectra:
+    highest: dict[str, float] = {}
+    for stretch, (frequency, power) in zip(stretches, spectra, strict=True):
         moving = np.flatnonzero((power > CUTOFF.above_noise * floor).any(axis=1))
-        highest = max(highest, float(frequency[moving[-1]]) if len(moving) else 0.0)
-    return highest or np.inf
+        seen = float(frequency[moving[-1]]) if len(moving) else 0.0
+        highest[stretch.run] = max(highest.get(stretch.run, 0.0), seen)
+    most = max(highest.values()) or np.inf
+    return {run: hz or most for run, hz in highest.items()}
 
 
 def _spectrum(stretch: Stretch) -> tuple[Array, Array]:

@@ -247,6 +247,11 @@ class CutoffRules(Constants):
         "derived: where the spectrum of positions falls with the 6th to 12th power of the frequency, what the filter "
         "takes of an acceleration and the noise that it lets through are least together at 1.2 to 1.5",
     )
+    slower_run: float = constant(
+        0.7,
+        "of the widest band of positions, below which a run has one of its own",
+        "judgement: half the noise's power",
+    )
     drowned: float = constant(2.0, "of what is left, below which the model drowns", "judgement: neither is exact")
     bins: int = constant(4, "in a row that must be drowned", "judgement: gaps in a spectrum are no end", unit="bins")
     fallback: float = constant(

@@ -27,11 +27,10 @@ class Preparation:
     """How samples become rows.
 
     Attributes:
-        rate: samples per second.
-        cutoff: of torque and model, Hz.
-        position_cutoff: of the positions before they are derived, Hz.
-        every: every how many samples a row is kept.
-        cutoff_source: why this cut-off.
+        rate: samples per second; cutoff: of torque and model, Hz.
+        position_cutoff: of the positions before they are derived, Hz, of a run that is in none of ``of_runs``.
+        every: every how many samples a row is kept; cutoff_source: why this cut-off.
+        of_runs: (run, Hz) of runs whose positions show less of a motion.
     """
 
     rate: float
@@ -39,6 +38,7 @@ class Preparation:
     position_cutoff: float
     every: int
     cutoff_source: str
+    of_runs: tuple[tuple[str, float], ...] = ()
 
     @property
     def stride(self) -> int:
@@ -55,14 +55,12 @@ class Preparation:
         """How many rows a stretch of samples gives."""
         return len(range(self.edge, samples - self.edge, self.every))
 
-    def smoothed(self, positions: Array) -> Array:
-        """(N, m) positions through a zero-phase low-pass at their own cut-off."""
-        return without_lag(positions, self.position_cutoff, self.rate, 15 * self.every)
+    def smoothed(self, positions: Array, run: str) -> Array:
+        """(N, m) positions of a run through a zero-phase low-pass at their own cut-off."""
+        return without_lag(positions, dict(self.of_runs).get(run, self.position_cutoff), self.rate, 15 * self.every)
 
     def low_passed(self, values: Array, kept: Indices, stride: int = 1) -> Array:
         """The rows that are kept of samples (N, ...) through the zero-phase low-pass of torque and model.
-
-        The filter is applied as the weights of its impulse response, to kept rows only: as matrices, some rows at once.
 
         Args:
             values: at every ``stride``-th sample.
@@ -91,9 +89,10 @@ class Preparation:
     def words(self) -> str:
         """What was done, in a sentence."""
         kept = f"every {self.every}th row kept" if self.every > 1 else "every row kept"
+        slower = f" ({min(hz for _, hz in self.of_runs):.3g} Hz in the slowest run)" if self.of_runs else ""
         return (
-            f"{self.rate:g} samples a second; positions low-passed at {self.position_cutoff:.3g} Hz and derived by "
-            f"a spline of the fifth degree; torque and model low-passed alike at {self.cutoff:.3g} Hz "
+            f"{self.rate:g} samples a second; positions low-passed at {self.position_cutoff:.3g} Hz{slower} and "
+            f"derived by a spline of the fifth degree; torque and model low-passed alike at {self.cutoff:.3g} Hz "
             f"({self.cutoff_source}) by a zero-phase Butterworth filter of order {FILTER.order}; "
             f"{FILTER.edge_s:g} s left out at the ends; {kept}"
         )
@@ -262,7 +261,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
     low = rows[0] - min(int(rows[0]), 2 * how.edge) // stride * stride
     high = min(rows[-1] + 2 * how.edge + 1, len(stretch))
     inside = slice(low, high)
-    q = how.smoothed(stretch.q[inside])
+    q = how.smoothed(stretch.q[inside], stretch.run)
     path = make_interp_spline(np.arange(len(q)) / stretch.rate, q, k=5)
     times = path.t[0] + np.arange(len(q))[::stride] / stretch.rate
     shift, twist = _beside(stretch, inside, how, times)
