@@ -16,6 +16,7 @@ from tests.motion.moving import COULOMB, moved, robot
 from tests.seeds import seeds
 
 JOINT = 1
+LOAD = {"mass_kg": 2.0, "com_mm": [0, 20, 60]}
 
 
 def driving(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
@@ -63,3 +64,17 @@ def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
         held_out = verdict.held_out
         assert max(held_out.background, held_out.model, *held_out.by_run.values()) < noise
         assert max(step.held_out for step in verdict.waterfall) < noise
+
+
+def test_a_fold_names_nothing_that_is_there_in_its_own_run_only() -> None:
+    """On a single run a load "in this run" is the load in all runs; it foretold nothing of the other."""
+    arm = robot()
+    found = diagnose_motion(arm, moved(robot(tool_load=LOAD), 3), MotionSettings(cutoff=10.0))
+    placed = found.selected.rows.layout.placed
+    assert [cause.effect for cause in found.verdict.effects] == ["payload_error"]
+    for fold in folds(found.selected):
+        (left,) = set(found.selected.rows.run.tolist()) - set(fold.rows.run[fold.which].tolist())
+        competing = [placed[n].runs for n, each in enumerate(fold.problem.space.candidates) if each.competes]
+        assert () in competing
+        assert (left,) not in competing
+    assert found.verdict.held_out.model == pytest.approx(found.verdict.waterfall[-1].held_out, rel=0.02)

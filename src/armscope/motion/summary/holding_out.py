@@ -49,7 +49,7 @@ def folds(selected: SelectedCauses) -> list[Fold]:
     parts = [_end(selected)] if single else [(k,) for k in range(count)]
     made = []
     for held in parts:
-        problem = _of_the_rest(selected, held)
+        problem = _of_all_runs(selected, _of_the_rest(selected, held), held)
         search = Search.on(problem)
         also = search.evaluated(selected.best.chosen, selected.best)
         found = search.best((selected.best.background,), also=also, local=False)
@@ -89,6 +89,17 @@ def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
     among = selected.weights.row * np.isin(selected.block, rest)[:, None]
     parts = [part for number in rest for part in selected.by_joint[number]]
     return problem.with_equations(weighed(rows, parts, noise_of(rows, left, among)))
+
+
+def _of_all_runs(selected: SelectedCauses, problem: Problem, held: tuple[int, ...]) -> Problem:
+    """Without what is there in the only run that is left: there it is the same as in all, and foretells nothing."""
+    left = set(selected.rows.run[~np.isin(selected.block, held)].tolist())
+    placed, chosen, space = selected.rows.layout.placed, selected.best.candidates, problem.space
+    candidates = tuple(
+        replace(each, competes=each.competes and (n in chosen or not left <= set(placed[n].runs)))
+        for n, each in enumerate(space.candidates)
+    )
+    return replace(problem, space=replace(space, candidates=candidates))
 
 
 def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
