@@ -28,6 +28,7 @@ class CheckRules(Constants):
 class LibraryRules(Constants):
     """Where the library stops."""
 
+    wide_load_m: float = constant(0.1, "from a load's centre to most of it", "judgement: a gripper", unit="m")
     least_shown: float = constant(
         1e-3,
         "of the arm's own torque that a change by one unit must show for its column to compete",
@@ -260,11 +261,6 @@ class MotionTelling(Constants):
     listed: int = constant(4, "rivals of a cause", "judgement: nobody reads more", unit="causes")
     by_chance: float = constant(
         1e-3, "chance that noise alone colours a cell of the atlas", "convention: dozens of cells are looked at"
-    )
-    clearly_better: float = constant(
-        0.8,
-        "of the held-out error without causes, below which they help although not found anew; so do nameless masses",
-        "judgement: a fifth is more than folds differ by",
     )
     in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
 

@@ -98,3 +98,28 @@ def test_a_gravity_that_leans_keeps_its_size() -> None:
             sizes.append(np.linalg.norm(down + values @ np.array(each.columns.numbers).reshape(-1, 3)))
         assert sizes[1] == pytest.approx(np.linalg.norm(down), rel=1e-12)
         assert sizes[0] > 1.0005 * sizes[1]
+
+
+GRIPPER = pin.Inertia(0.8, np.array([0.31, 0.02, 0.03]), np.diag([0.004, 0.009, 0.007]))
+"""kg, m in the last joint's frame, kg m^2 about its own centre."""
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_a_load_with_an_inertia_of_its_own_is_a_load(seed: int) -> None:
+    """As a point it was none: masses that are off "without a name" took its place."""
+    arm, inertial = robot(), robot().inertial.copy()
+    inertial[20:30] += GRIPPER.toDynamicParameters()
+
+    def carried(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return np.asarray(arm.torques(q, dq, ddq, inertial) - rigid)
+
+    verdict = diagnose_motion(arm, moved(arm, seed, carried, noise=0.001), MotionSettings(cutoff=10.0)).verdict
+    cause = verdict.effects[0]
+    assert (cause.effect, cause.location) == ("payload_error", "payload")
+    found = {each.name: each for each in cause.parameters}
+    true = {"mass": GRIPPER.mass, "mx": GRIPPER.mass * 0.31, "my": GRIPPER.mass * 0.02, "Izz": 0.007}
+    for name, value in true.items():
+        low, high = found[name].interval
+        assert low < value < high, name
+    assert found["mass"].stderr < 0.05
+    assert verdict.held_out.model < 0.1 * verdict.held_out.background

@@ -82,6 +82,20 @@ def is_anywhere(cause: PlacedCause) -> bool:
     return cause.cause is catalogue.PAYLOAD and cause.width > 1
 
 
+def sits_nowhere(selected: SelectedCauses, number: int) -> bool:
+    """Whether a load that may sit anywhere has its centre farther from the last joint than the arm is long.
+
+    Moments of the last link, moved by errors of the other masses, are no load.
+    """
+    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
+    mass, *others = selected.coefficients[columns]
+    moments = [
+        v for v, (name, _) in zip(others, layout.placed[number].parameters[1:], strict=True) if name in OF_A_LOAD
+    ]
+    _, stated = carried_in(selected, layout.placed[number])
+    return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + stated))
+
+
 def carried_in(selected: SelectedCauses, load: PlacedCause) -> tuple[Array, float]:
     """(4,) mass and moments that the chosen causes add to the last link where a load is, and kg stated there."""
     rows, added = selected.rows, np.zeros(4)

@@ -17,7 +17,7 @@ from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
-from armscope.motion.fitting.refining import refined
+from armscope.motion.fitting.refining import refined, sits_nowhere
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.space import build_space
@@ -29,6 +29,7 @@ from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.laws import follows_motion
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.library.masses import EXTENDED
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
 
@@ -96,7 +97,7 @@ def select_causes(
         last = selected.best, selected.best.chosen
         noise = selected.noise
         noise, calm = noise.not_far_above(calm), noise if calm is None else calm.where_better(noise)
-        selected = at_own_gain(chosen(rows, noise, block, space, last, selected))
+        selected = _with_bodies(at_own_gain(chosen(rows, noise, block, space, last, selected)), how.rate)
         finer = refined(selected, between)
         named.append(selected.best.candidates)
         if finer is None and (_at_rest(named) or number + 1 >= NOISE.rounds):
@@ -105,6 +106,23 @@ def select_causes(
         layout = finer or layout
     assert selected is not None
     return selected
+
+
+def _with_bodies(selected: SelectedCauses, rate: float) -> SelectedCauses:
+    """The selection without a load of ten free numbers that is no body: what it stands for competes in its place.
+
+    It says all that its link can, at once. Struck out after all rounds, the link's own columns would not have moved to
+    where its centre is.
+    """
+    layout, best, competes = selected.rows.layout, selected.best, selected.space.candidates
+    loads = [n for n in best.candidates if layout.placed[n].variant.endswith(EXTENDED)]
+    barred = frozenset(n for n in loads if sits_nowhere(selected, n))
+    if not barred:
+        return selected
+    barred |= {n for n, each in enumerate(competes) if not each.competes}
+    space = build_space(layout, np.sqrt(np.mean(selected.rows.torque**2, axis=0)), rate, barred)
+    before = best, tuple(effect for effect in best.chosen if effect.candidate not in barred)
+    return at_own_gain(chosen(selected.rows, selected.weights, selected.block, space, before, selected))
 
 
 def _at_rest(named: Sequence[frozenset[int]]) -> bool:

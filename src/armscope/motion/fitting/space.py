@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
+
+OF_MASSES, OF_REVERSALS = frozenset({"masses", "link masses"}), frozenset({"reversals"})
+"""Names of the families by which masses are off without a name, and by which friction changes sides."""
 
 
 def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozenset[int] = frozenset()) -> ModelSpace:
@@ -61,6 +65,17 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         starts=tuple(starts),
         exchanges=tuple(_changes_for_payloads(layout, barred)),
     )
+
+
+def without_backgrounds(space: ModelSpace, names: Collection[str]) -> ModelSpace:
+    """The space where some families hold nothing at any of their sizes."""
+    families = tuple(
+        replace(family, shares=(0.0,) * family.sizes)
+        if isinstance(family, ToleranceFamily) and family.name in names
+        else family
+        for family in space.families
+    )
+    return replace(space, families=families)
 
 
 def _changes_for_payloads(layout: TorqueLayout, barred: frozenset[int]) -> Iterator[Exchange]:

@@ -17,6 +17,10 @@ from armscope.motion.library.for_a_while import OF_A_LOAD, of_a_load
 from armscope.motion.library.laws import Law
 from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
 
+EXTENDED = "extended"
+"""The form of a load that has an inertia of its own: with it, it is all that its link's numbers can be off by."""
+_INERTIA = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
+
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
     """Every cause that is made of inertial parameters, and gravity's direction."""
@@ -32,9 +36,8 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
             if _says_more(seen, first, second):
                 yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
-            names = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
             if len(shown(seen, second)) > 1:
-                yield from _inertial(seen, catalogue.LINK_INERTIA, place, names, second, variant="all six")
+                yield from _inertial(seen, catalogue.LINK_INERTIA, place, _INERTIA, second, variant="all six")
             alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
             yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
     if arm.n_links > 1:
@@ -76,10 +79,11 @@ def as_a_body(placed: PlacedCause, arm: MovingArm, values: Array, stated: float 
     Returns:
         It, with other columns; itself where what is carried has no mass, or where the motion tells no mass.
     """
-    axes = [OF_A_LOAD.index(name) for name, _ in placed.parameters]
-    if 0 not in axes or stated + values[0] <= 0:
+    axes = [OF_A_LOAD.index(name) for name, _ in placed.parameters if name in OF_A_LOAD]
+    if 0 not in axes or stated + values[0] <= 0 or placed.inertial is None:
         return placed
-    return replace(placed, inertial=of_a_load(arm, values, stated)[:, axes])
+    own = placed.inertial[:, len(axes) :]
+    return replace(placed, inertial=np.hstack([of_a_load(arm, values, stated)[:, axes], own]))
 
 
 def shown(seen: Seen, inertial: Array) -> Indices:
@@ -114,12 +118,21 @@ def _says_more(seen: Seen, inertial: Array, than: Array) -> bool:
 
 
 def _inertial(
-    seen: Seen, cause: Cause, place: str, names: tuple[tuple[str, str], ...], inertial: Array, **more: Any
+    seen: Seen,
+    cause: Cause,
+    place: str,
+    names: tuple[tuple[str, str], ...],
+    inertial: Array,
+    likely: Array | None = None,
+    **more: Any,
 ) -> Iterator[PlacedCause]:
     """A cause made of inertial parameters, with those of its columns that the motion can tell."""
     told = shown(seen, inertial)
     if not len(told):
         return
+    if likely is not None:
+        torque = np.sqrt(np.mean((seen.regressor @ inertial[:, told]) ** 2, axis=0)) * likely[told]
+        more["expected"] = tuple(map(float, torque / torque[0]))
     every = tuple(range(seen.arm.n_motors))
     driver = "acceleration" if cause is catalogue.LINK_INERTIA else "load"
     yield PlacedCause(cause, place, driver, tuple(names[k] for k in told), every, inertial=inertial[:, told], **more)
@@ -128,11 +141,14 @@ def _inertial(
 def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
     """Mass at the tool point, or anywhere on the last link: in all runs, and in each run by itself."""
     anywhere = (("mass", "kg"), *((f"m{axis}", "kg m") for axis in "xyz"))
+    extended = np.hstack([columns, np.eye(len(columns))[:, -len(_INERTIA) :]])
+    likely = np.array([1.0, *[LIBRARY.wide_load_m] * 3, *[LIBRARY.wide_load_m**2] * len(_INERTIA)])
     variants: list[tuple[str, ...]] = [()]
     if len(seen.runs) > 1:
         variants += [(run,) for run in seen.runs]
     for runs in variants:
-        name, more = runs[0] if runs else "", {"runs": runs, "multiplicity": len(variants)}
+        name = runs[0] if runs else ""
+        more: dict[str, Any] = {"runs": runs, "multiplicity": len(variants)}
         point = seen.arm.point_load()[:, None]
         yield from _inertial(
             seen, catalogue.PAYLOAD, "payload", anywhere[:1], point, variant=f"{name} tool".strip(), **more
@@ -140,6 +156,8 @@ def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
         yield from _inertial(
             seen, catalogue.PAYLOAD, "payload", anywhere, columns, variant=f"{name} free".strip(), **more
         )
+        names, form = (*anywhere, *_INERTIA), f"{name} {EXTENDED}".strip()
+        yield from _inertial(seen, catalogue.PAYLOAD, "payload", names, extended, likely, variant=form, **more)
     for body, inertial in seen.arm.attached:
         if inertial[::10].max() > LIBRARY.least_body * seen.arm.inertial[10 * int(inertial[::10].argmax())]:
             yield from _inertial(seen, catalogue.BODY, body, (("times", ""),), inertial[:, None])

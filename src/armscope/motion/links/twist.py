@@ -33,7 +33,7 @@ from armscope.motion.library.twist_constants import TWIST
 from armscope.motion.model.link_motion import moment_of_links
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
-from armscope.motion.summary.tenable import held_out_gains
+from armscope.motion.summary.foretelling import held_out_gains
 from armscope.robot.dynamics import MovingArm
 
 

@@ -36,6 +36,11 @@ class NamingRules(Constants):
         "shares, beyond those of all links, by which inertial parameters of links with a name may be off without it",
         "judgement: a link that is another one than stated",
     )
+    beyond_gains: float = constant(
+        2.5,
+        "times its stated uncertainty that a drive's gain must be off to have a name",
+        "convention: one in eighty is farther out; of poses, what a background holds has a name from there, too",
+    )
     determined: float = constant(
         0.8,
         "of a number that its 95 % interval reaches either way, from which the number is not determined",
@@ -46,6 +51,37 @@ class NamingRules(Constants):
         3,
         "that must be late alike for a clock to be told in their place",
         "judgement: two drives may be alike by chance",
+    )
+
+
+@dataclass(frozen=True)
+class HeldOutRules(Constants):
+    """What names must do for motion that took no part."""
+
+    clearly_better: float = constant(
+        0.8,
+        "of the held-out error without causes, below which they help although not found anew; so do nameless masses",
+        "judgement: a fifth is more than folds differ by",
+    )
+    as_good_anew: float = constant(
+        1.05,
+        "times the held-out error without causes, up to which causes that are found anew do as well as none",
+        "judgement: folds differ by as much",
+    )
+    any_better: float = constant(
+        0.99,
+        "of the held-out error without causes, below which they help at all",
+        "judgement: two percent of its power",
+    )
+    harm: float = constant(
+        0.1,
+        "of the power of noise in a block, by which a background must make motion that took no part worse to go",
+        "judgement: less is chance, and what it fits may be there",
+    )
+    little_share: float = constant(
+        0.05,
+        "of what friction and rotors leave, below which causes that help nothing are no part of the story",
+        "judgement: a fault that anybody looks for leaves more",
     )
 
 
@@ -103,3 +139,4 @@ PLAUSIBLE = PlausibleRules()
 NAMING = NamingRules()
 LASTING = LastingRules()
 INTERVALS = IntervalRules()
+HELD_OUT = HeldOutRules()

@@ -23,17 +23,17 @@ from armscope.inference.search import Search
 from armscope.motion.constants import PRIOR, TELLING
 from armscope.motion.fitting.linkages import mount_unsure
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.torque_delay import lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
+from armscope.motion.library.masses import EXTENDED
 from armscope.motion.summary.constants import INTERVALS
 from armscope.motion.summary.unnamed_masses import by_own_share
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
 
-OF_MASSES = ("masses", "link masses")
-"""Names of the families by which masses are off without a name."""
 Rivals = Mapping[int, Sequence[Hypothesis]]
 
 
@@ -66,7 +66,11 @@ def sureness(selected: SelectedCauses, carried: Mapping[str, float]) -> Sureness
     for number in selected.best.candidates:
         held = search.in_background(selected.best, number)  # its rivals explain what it does without it, there, too
         alone = search.holding(search.candidate(number).held) if held else search
-        rivals[number] = alone.additions(alone.without(selected.best, [number]), TELLING.looked_at, [number])
+        rivals[number] = [
+            each
+            for each in alone.additions(alone.without(selected.best, [number]), TELLING.looked_at, [number])
+            if _at_its_joints(selected, number, each.chosen[-1].candidate)
+        ]
     factor = _widened(selected, search, rivals)
     level = level_of_gains(selected.rows.layout)
     if level:
@@ -75,6 +79,12 @@ def sureness(selected: SelectedCauses, carried: Mapping[str, float]) -> Sureness
         alike = level * np.abs(_whole(selected, carried)[columns])
         factor[columns] *= np.hypot(1.0, alike / error)
     return Sureness(search, rivals, factor)
+
+
+def _at_its_joints(selected: SelectedCauses, number: int, other: int) -> bool:
+    """Whether a cause and another one are torque of a joint in common: else neither can stand for the other."""
+    placed = selected.rows.layout.placed
+    return bool(set(placed[number].joints) & set(placed[other].joints))
 
 
 def level_of_gains(layout: TorqueLayout) -> float:
@@ -229,7 +239,7 @@ def _otherwise_off(selected: SelectedCauses) -> dict[int, list[Hypothesis]]:
     found: dict[int, list[Hypothesis]] = {}
     for number in best.candidates:
         placed = layout.placed[number]
-        if placed.inertial is None or placed.runs:
+        if placed.inertial is None or placed.runs or placed.variant == EXTENDED:
             continue
         within = [
             replace(each, log_posterior=best.log_posterior)

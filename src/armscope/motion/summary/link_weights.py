@@ -29,7 +29,8 @@ def rather_all_links(selected: SelectedCauses, of_all: BackgroundSizes) -> Selec
     """The selection with all links off a little in the place of names of masses, where that is about as likely.
 
     A search ends at one of the two as its rounds go. Names beside masses that are all as stated have intervals that
-    know of nothing else, and what one link does in the place of others, a spring beside it puts right.
+    know of nothing else, and what one link does in the place of others, a spring beside it puts right. A body of the
+    model that is missing is no error of masses: it stays.
 
     Args:
         selected: what the evidence asks for.
@@ -41,7 +42,8 @@ def rather_all_links(selected: SelectedCauses, of_all: BackgroundSizes) -> Selec
     best, layout = selected.best, selected.rows.layout
     placed = [layout.placed[number] for number in best.candidates]
     weights = [family.name for family in selected.space.families].index("link masses")
-    if best.background[weights] or not any(each.inertial is not None and not each.runs for each in placed):
+    of_masses = [each for each in placed if each.inertial is not None and not each.runs]
+    if best.background[weights] or all(each.cause is catalogue.BODY for each in of_masses):
         return selected
     other = Search.on(selected.problem).best([of_all])
     if other.background[weights] and other.log_posterior > best.log_posterior - INDISTINGUISHABLE_NATS:

@@ -13,16 +13,15 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.normal_equations import total
+from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import CONSISTENCY, PRIOR
-from armscope.motion.fitting.consistency import Weighed, agreement
-from armscope.motion.fitting.refining import carried_in, is_anywhere
+from armscope.motion.fitting.consistency import agreement
+from armscope.motion.fitting.refining import carried_in, is_anywhere, sits_nowhere
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, chosen, settled
-from armscope.motion.fitting.space import build_space
+from armscope.motion.fitting.space import build_space, without_backgrounds
 from armscope.motion.library import catalogue
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
@@ -31,6 +30,7 @@ from armscope.motion.library.layout import OWN
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
+from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
@@ -47,12 +47,13 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """
     barred: frozenset[int] = frozenset()
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
+    selected, without = with_backgrounds_that_foretell(selected)
     for number in itertools.count():  # ends: from some round on names only go
         wrong = _untenable(selected, rate)
         if not wrong:
             break
         barred |= wrong
-        space = build_space(selected.rows.layout, torque, rate, barred)
+        space = without_backgrounds(build_space(selected.rows.layout, torque, rate, barred), without)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
         again = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
         alone = _alone(again, kept)
@@ -77,7 +78,7 @@ def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> Selected
 def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:
     """Whether a selection meets the middle one of the blocks that took no part better than another hypothesis does."""
     hypotheses = (selected.best, replace(alone, noise=selected.best.noise))
-    found, other = _misfits(selected, [(best, best.chosen) for best in hypotheses])
+    found, other = misfits(selected, [(best, best.chosen) for best in hypotheses])
     return bool(np.median(other - found) > 0)
 
 
@@ -127,20 +128,17 @@ def _between_samples(selected: SelectedCauses, rate: float) -> Iterator[int]:
 
 
 def _no_body(selected: SelectedCauses, number: int) -> bool:
-    """Whether a load that may sit anywhere has no mass, or its centre farther from the last joint than the arm is long.
+    """Whether a load that may sit anywhere has no mass, or sits nowhere.
 
-    Moments of the last link, moved by errors of the other masses, are no load; nor is what is not stated to be carried
-    and has a mass that is not determined: what sits elsewhere there is nothing.
+    Where none is stated and its mass is not determined, what sits elsewhere is nothing.
     """
     layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
     if placed.parameters[0][0] != "mass":
         return True
     columns, (_, stated) = layout.columns[number], carried_in(selected, placed)
-    mass, *moments = selected.coefficients[columns]
+    mass = float(selected.coefficients[columns[0]])
     error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
-    if not stated and NAMING.determined * abs(mass) < INTERVAL * error:
-        return True
-    return bool(np.linalg.norm(moments) > layout.reach * (abs(mass) + stated))
+    return (not stated and NAMING.determined * abs(mass) < INTERVAL * error) or sits_nowhere(selected, number)
 
 
 def _no_load(selected: SelectedCauses, number: int) -> bool:
@@ -222,7 +220,7 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     if not useless:
         return
     kept = tuple(effect for effect in best.chosen if effect.candidate not in useless)
-    without, with_them = _misfits(selected, [(best, kept), (best, best.chosen)])
+    without, with_them = misfits(selected, [(best, kept), (best, best.chosen)])
     lost = float(np.median(without - with_them))
     yield from useless if lost <= 0 else [min(useless, key=gains.__getitem__)]
 
@@ -251,44 +249,3 @@ def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
         if another is not None and another[2] >= INDISTINGUISHABLE_NATS:
             instead = at_own_gain(another[0])
             selected = selected if _untenable(instead, rate) else instead
-
-
-def held_out_gains(selected: Weighed) -> dict[int, float]:
-    """Nats by which each cause betters the middle one of the blocks that took no part in its fit.
-
-    Not their sum: where one run has something of its own, a payload say, what that leaves there drowns all else.
-
-    Args:
-        selected: a selection.
-
-    Returns:
-        By number of each chosen cause.
-    """
-    best = selected.best
-    without = [tuple(effect for effect in best.chosen if effect.candidate != number) for number in best.candidates]
-    whole, *lesser = _misfits(selected, [(best, effects) for effects in (best.chosen, *without)])
-    return {n: float(np.median(each - whole)) for n, each in zip(best.candidates, lesser, strict=True)}
-
-
-def _misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
-    """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
-
-    Beside those of nothing at all.
-
-    Args:
-        selected: with B blocks.
-        asked: A hypotheses, and the effects that are fitted.
-
-    Returns:
-        (A, B).
-    """
-    nats = np.zeros((len(asked), len(selected.blocks)))
-    for held, block in enumerate(selected.blocks):
-        rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
-        for row, (best, effects) in zip(nats, asked, strict=True):
-            fitted = evaluate(trained, effects, best.background, best.noise)
-            at = fitted.columns
-            squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
-            row[held] = float(squares) / (2 * best.noise**2)
-    return nats
