@@ -30,6 +30,7 @@ from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretc
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.by_run import friction_by_run
+from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
     Fold,
     HeldOutTorque,
@@ -45,8 +46,8 @@ from armscope.motion.summary.holding_out import (
 from armscope.motion.summary.identifiable import identifiable, little_excited
 from armscope.motion.summary.intervals import Sureness, covariance_of, level_told
 from armscope.motion.summary.judgement import (
-    HeldOutErrors,
     answer_of,
+    apart_where_useless,
     found_causes,
     headline,
     joint_backgrounds,
@@ -168,9 +169,7 @@ def diagnose_motion(
     layout = selected.rows.layout
     notices += [*told, *gaps(motions), *little_excited(selected)]
     progress("measuring on motion that took no part", 0.75)
-    apart = None
-    if test:
-        apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients))
+    apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients)) if test else None
     notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)
     twists = judged_twists(selected, seen, train, how)
@@ -256,6 +255,7 @@ def _judged(
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     off = max(sizes["masses"], sizes["link masses"])
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
+    found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
     moving = joints_in_motion(selected.rows.still)
     verdict = MotionVerdict(

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from armscope.motion.library.remedies import Fitted
-from armscope.motion.library.remedies_of_loads import as_tool_load
+from armscope.motion.library.remedies_of_loads import OWN_INERTIA, as_tool_load
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import MovingArm, build_moving_arm
 from armscope.verdict.effects import Parameter
@@ -97,3 +97,16 @@ def test_what_this_motion_does_not_tell_is_named_and_what_is_no_load_goes_into_t
     lighter = as_tool_load(Fitted("State it.", numbers(stated, true), stated))
     assert "mass −1.70" in lighter
     assert "corrected.urdf has both" in lighter
+
+
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+@pytest.mark.parametrize("stated", [None, OTHER])
+def test_a_load_with_an_inertia_of_its_own_is_typed_in_with_it(convention: str, stated: dict[str, Any] | None) -> None:
+    gripper = {**TRUE, "inertia_kg_m2": [0.003, 0.004, 0.0055, 0.0004, -0.0003, 0.0002]}
+    alone, without, before = (arm(load, convention) for load in (gripper, None, stated))
+    point = numbers(alone, without)
+    own = alone.inertial[-6:] - arm(TRUE, convention).inertial[-6:]
+    inertia = tuple(Parameter(n, "kg m^2", float(v), 1e-6) for n, v in zip(OWN_INERTIA, own, strict=True))
+    cure = as_tool_load(Fitted("State it.", (*point, *inertia), before))
+    true = without.inertial + (alone.inertial - without.inertial) + (before.inertial - without.inertial)
+    assert np.allclose(arm(typed_in(cure), convention).inertial, true, rtol=2e-3, atol=2e-4)

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 
 from armscope.motion.pipeline import diagnose_motion
-from armscope.motion.summary.judgement import HeldOutErrors, answer_of, headline
+from armscope.motion.summary.held_out_errors import HeldOutErrors
+from armscope.motion.summary.judgement import answer_of, apart_where_useless, headline
 from armscope.motion.verdict import FoundCause, UnexplainedTorque
 from armscope.verdict.effects import Parameter
 from tests.motion.moving import ROBOT, moved, robot
@@ -65,3 +66,24 @@ def test_masses_that_help_hardly_leave_nothing_missing() -> None:
     assert headline([], errors).startswith("Nothing is missing")
     much = replace(errors, named=0.01)
     assert answer_of([], UnexplainedTorque(False), much) == ("cannot tell", True)
+
+
+def test_little_that_helps_nothing_is_no_mismatch() -> None:
+    """On a clean arm a drive that gives way, of no known size, was the answer to "what is missing"."""
+    little, useless = replace(beside(), share=0.01), HeldOutErrors(0.0050, 0.0051, 0.0050)
+    apart = apart_where_useless([little], useless)
+    assert [cause.minor for cause in apart] == [True]
+    assert answer_of(apart, UnexplainedTorque(False), useless) == ("nothing missing", False)
+    assert headline(apart, useless).startswith("Nothing that helps elsewhere is missing")
+    assert answer_of(apart, UnexplainedTorque(True), useless)[0] == "cannot tell"
+
+
+def test_what_is_large_or_helps_is_part_of_the_story() -> None:
+    useless, helps = HeldOutErrors(0.0050, 0.0051, 0.0050), HeldOutErrors(0.0060, 0.0060, 0.0058)
+    (large,) = apart_where_useless([replace(beside(), share=0.3)], useless)
+    assert not large.minor
+    assert answer_of([large], UnexplainedTorque(False), useless) == ("cannot tell", True)
+    (small,) = apart_where_useless([replace(beside(), share=0.03)], helps)
+    assert answer_of([small], UnexplainedTorque(False), helps) == ("explained", True)
+    much_worse = HeldOutErrors(0.0060, 0.0200, 0.0058)
+    assert answer_of([small], UnexplainedTorque(False), much_worse) == ("cannot tell", True)

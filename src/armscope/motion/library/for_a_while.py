@@ -16,6 +16,8 @@ from armscope.robot.dynamics import MovingArm, moved_centre
 
 OF_A_LOAD = ("mass", "mx", "my", "mz")
 """Numbers of a load anywhere on the last link, kg and kg m."""
+INERTIA = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
+"""Names and units of a body's inertia, in the order of Pinocchio's parameters."""
 
 
 def there(time: Array, at_first: float, moments: Sequence[float]) -> Array:

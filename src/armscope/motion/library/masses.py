@@ -13,13 +13,12 @@ from armscope.core.types import Array, Indices
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.for_a_while import OF_A_LOAD, of_a_load
+from armscope.motion.library.for_a_while import INERTIA, OF_A_LOAD, of_a_load
 from armscope.motion.library.laws import Law
 from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
 
 EXTENDED = "extended"
 """The form of a load that has an inertia of its own: with it, it is all that its link's numbers can be off by."""
-_INERTIA = tuple((name, "kg m^2") for name in ("Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"))
 
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
@@ -37,7 +36,7 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             if _says_more(seen, first, second):
                 yield from _inertial(seen, catalogue.LINK_CENTRE, place, moments, first)
             if len(shown(seen, second)) > 1:
-                yield from _inertial(seen, catalogue.LINK_INERTIA, place, _INERTIA, second, variant="all six")
+                yield from _inertial(seen, catalogue.LINK_INERTIA, place, INERTIA, second, variant="all six")
             alike = second[:, [0, 2, 5]].sum(axis=1, keepdims=True)
             yield from _inertial(seen, catalogue.LINK_INERTIA, place, (("inertia", "kg m^2"),), alike)
     if arm.n_links > 1:
@@ -141,8 +140,8 @@ def _inertial(
 def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
     """Mass at the tool point, or anywhere on the last link: in all runs, and in each run by itself."""
     anywhere = (("mass", "kg"), *((f"m{axis}", "kg m") for axis in "xyz"))
-    extended = np.hstack([columns, np.eye(len(columns))[:, -len(_INERTIA) :]])
-    likely = np.array([1.0, *[LIBRARY.wide_load_m] * 3, *[LIBRARY.wide_load_m**2] * len(_INERTIA)])
+    extended = np.hstack([columns, np.eye(len(columns))[:, -len(INERTIA) :]])
+    likely = np.array([1.0, *[LIBRARY.wide_load_m] * 3, *[LIBRARY.wide_load_m**2] * len(INERTIA)])
     variants: list[tuple[str, ...]] = [()]
     if len(seen.runs) > 1:
         variants += [(run,) for run in seen.runs]
@@ -156,7 +155,7 @@ def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
         yield from _inertial(
             seen, catalogue.PAYLOAD, "payload", anywhere, columns, variant=f"{name} free".strip(), **more
         )
-        names, form = (*anywhere, *_INERTIA), f"{name} {EXTENDED}".strip()
+        names, form = (*anywhere, *INERTIA), f"{name} {EXTENDED}".strip()
         yield from _inertial(seen, catalogue.PAYLOAD, "payload", names, extended, likely, variant=form, **more)
     for body, inertial in seen.arm.attached:
         if inertial[::10].max() > LIBRARY.least_body * seen.arm.inertial[10 * int(inertial[::10].argmax())]:

@@ -8,11 +8,13 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.library.clauses import amount
-from armscope.motion.library.for_a_while import OF_A_LOAD
+from armscope.motion.library.for_a_while import INERTIA, OF_A_LOAD
 from armscope.motion.library.remedies import Fitted, as_stated_and
 from armscope.robot.model import TIP
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import decimals_for
+
+OWN_INERTIA = tuple(name for name, _ in INERTIA)
 
 
 class Load(NamedTuple):
@@ -26,7 +28,7 @@ class Load(NamedTuple):
 def as_tool_load(fitted: Fitted) -> str:
     """A load's mass and centre in the last frame, what is stated of it among them; the sum must be a body."""
     numbers = fitted.numbers
-    if "mass" not in numbers or not set(numbers) <= set(OF_A_LOAD):
+    if "mass" not in numbers or not set(numbers) <= {*OF_A_LOAD, *OWN_INERTIA}:
         return as_stated_and(fitted)
     whole, errors = _with_stated(fitted)
     if whole.mass <= 0:
@@ -74,7 +76,14 @@ def _with_stated(fitted: Fitted) -> tuple[Load, Array]:
     spread = (placement.rotation.T**2) @ errors**2 + (by_mass * numbers["mass"].stderr) ** 2
     turned = stated.inertia + _about(stated.mass, stated.centre - centre)
     turned = turned + (_about(mass, first / mass - centre) if mass else 0.0)
+    turned = turned + placement.rotation.T @ _own_inertia(fitted) @ placement.rotation
     return Load(total, centre, turned), np.sqrt(spread) / max(abs(total), 1e-300)
+
+
+def _own_inertia(fitted: Fitted) -> Array:
+    """(3, 3) of what is carried about its own centre, along the last joint's axes, kg m^2; 0 where it is a point."""
+    xx, xy, yy, xz, yz, zz = (fitted.numbers[n].value if n in fitted.numbers else 0.0 for n in OWN_INERTIA)
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def _stated(fitted: Fitted) -> Load:
@@ -93,14 +102,17 @@ def _about(mass: float, lever: Array) -> Array:
 
 
 def _inertia(fitted: Fitted, whole: Load) -> str:
-    """The key of its inertia where a load is stated already: two bodies have one about their common centre."""
+    """The key of its inertia: of a load that has its own, or beside a stated one, about both bodies' centre.
+
+    What was told is left out where it is no body's: its numbers are known too little.
+    """
     stated = fitted.arm.description.tool_load
-    if stated is None or stated.mass_kg == 0:
+    if (stated is None or stated.mass_kg == 0) and not fitted.numbers.keys() & set(OWN_INERTIA):
         return ""
     about = whole.inertia
     least, middle, most = np.linalg.eigvalsh(about)
     if least < 0 or least + middle < most:  # what was taken off was no body by itself
-        values = stated.inertia_kg_m2
+        values = None if stated is None else stated.inertia_kg_m2
         return "" if values is None else f", inertia_kg_m2: [{', '.join(f'{each:g}' for each in values)}]"
     six = about[*np.array([[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]).T]
     return f", inertia_kg_m2: [{', '.join(f'{each:.3g}' for each in six)}]"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
+from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.doubts import doubt_of
+from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
 from armscope.motion.summary.one_clock import clock_together, joints_in_motion
@@ -157,53 +159,6 @@ def unexplained(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -
     return UnexplainedTorque(False)
 
 
-@dataclass(frozen=True)
-class HeldOutErrors:
-    """Of torque on motion that took no part, relative to it.
-
-    Attributes:
-        without: with friction and rotors alone.
-        anew: with causes found without that motion.
-        named: with the causes that all of the motion names, their sizes found without it.
-        masses: share of a link's mass, and so on, by which those are off that have no name.
-        by_masses: share of what friction and rotors leave that these add to what has a name, in the motion fitted.
-    """
-
-    without: float
-    anew: float
-    named: float
-    masses: float = 0.0
-    by_masses: float = 0.0
-
-    @property
-    def worse(self) -> bool:
-        """Whether causes that are found anew help nothing."""
-        return self.anew >= self.without
-
-    @property
-    def only_unnamed(self) -> bool:
-        """Whether masses that are off without a name help: what else is free of every name helps hardly at all."""
-        return self.masses > 0 and self.named < TELLING.clearly_better * self.without
-
-    @property
-    def foretells_nothing(self) -> bool:
-        """Whether the model foretells the torque no better than a torque of zero would."""
-        return self.anew >= 1
-
-    @property
-    def no_answer(self) -> bool:
-        """Whether the named ones don't clearly help either."""
-        return self.worse and self.named > TELLING.clearly_better * self.without
-
-    def words(self) -> str:
-        """How well torque is met, in a sentence."""
-        without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
-        if not self.worse:
-            return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
-        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
-        return f"{told}; to {anew} where the causes, too, are found without it."
-
-
 def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: HeldOutErrors) -> tuple[Answer, bool]:
     """The answer in two words, and whether there is a mismatch.
 
@@ -219,7 +174,7 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
         missing = left.present or errors.foretells_nothing or errors.only_unnamed
         return ("cannot tell", True) if missing else ("nothing missing", False)
     if errors.no_answer:
-        return "cannot tell", True
+        return ("cannot tell", True) if left.present or _told(found) else ("nothing missing", False)
     named = [cause for cause in found if not cause.nameless and not cause.minor]
     if left.present:
         return ("partly explained" if named else "cannot tell"), True
@@ -259,6 +214,8 @@ def headline(
                 f"cause mends it. Are they of this motion, and of this arm? {met}"
             )
         return f"Nothing is missing beyond friction and rotors of the joints. {met}"
+    if errors.no_answer and not main and not lasting:
+        return f"Nothing that helps elsewhere is missing beyond friction and rotors of the joints. {errors.words()}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
     if errors.no_answer:
@@ -272,13 +229,15 @@ def headline(
     return f"{capitalised(causes)}. {_further(rest)}{unnamed}{beyond}{errors.words()}"
 
 
+def apart_where_useless(found: Sequence[FoundCause], errors: HeldOutErrors) -> list[FoundCause]:
+    """Causes that all together are hardly worth anything and foretell nothing are apart from the story."""
+    little = sum(cause.share for cause in found if not cause.minor) < HELD_OUT.little_share
+    return [replace(cause, minor=True) if little and errors.useless else cause for cause in found]
+
+
 def _told(found: Sequence[FoundCause]) -> list[FoundCause]:
     """Those that are part of the story."""
     return [cause for cause in found if not cause.minor]
-
-
-ON_HELD_OUT = "On held-out motion"
-"""How the sentence of a headline begins that says how well torque is met."""
 
 
 def _further(causes: Sequence[FoundCause]) -> str:

@@ -21,6 +21,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.summary.doubts import determined
 from armscope.motion.summary.intervals import Sureness, sureness
 from armscope.motion.summary.judgement import cause_parameters
+from armscope.motion.summary.told_gains import with_gains_that_stand_out
 from armscope.motion.summary.unnamed_masses import odds_of_weight
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -74,15 +75,17 @@ def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
 
 
 def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[SelectedCauses, Sureness]:
-    """The selection with names for those links out of all whose weight is told, and how far it can be trusted.
+    """The selection with names for gains beyond what is stated, and for those links out of all whose weight is told.
 
     Args:
         selected: as of `tenable`.
         carried: stated payload of runs, kg.
 
     Returns:
-        Both; a link whose number is not determined, by gains that nobody has measured say, has no name.
+        It, and how far it can be trusted. A link whose number is not determined, by gains that nobody has measured
+        say, has no name.
     """
+    selected = with_gains_that_stand_out(selected)
     named = with_links_that_weigh(selected)
     sure = sureness(named, carried)
     added = named.best.candidates - selected.best.candidates

@@ -10,7 +10,7 @@ from armscope.core.files import read_table, write_text
 from armscope.core.markdown import table_lines
 from armscope.motion.library.catalogue import CAUSES
 from armscope.motion.library.twist_catalogue import TWISTS
-from armscope.motion.summary.judgement import ON_HELD_OUT
+from armscope.motion.summary.held_out_errors import ON_HELD_OUT
 from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
 from armscope.report.pages.readme import filled

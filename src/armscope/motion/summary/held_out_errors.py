@@ -1,0 +1,67 @@
+"""How well torque is met on motion that took no part, and what that says of names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.numerals import rounded
+from armscope.motion.summary.constants import HELD_OUT
+
+ON_HELD_OUT = "On held-out motion"
+"""How the sentence of a headline begins that says how well torque is met."""
+
+
+@dataclass(frozen=True)
+class HeldOutErrors:
+    """Of torque on motion that took no part, relative to it.
+
+    Attributes:
+        without: with friction and rotors alone.
+        anew: with causes found without that motion.
+        named: with the causes that all of the motion names, their sizes found without it.
+        masses: share of a link's mass, and so on, by which those are off that have no name.
+        by_masses: share of what friction and rotors leave that these add to what has a name, in the motion fitted.
+    """
+
+    without: float
+    anew: float
+    named: float
+    masses: float = 0.0
+    by_masses: float = 0.0
+
+    @property
+    def worse(self) -> bool:
+        """Whether causes that are found anew help nothing."""
+        return self.anew >= self.without
+
+    @property
+    def only_unnamed(self) -> bool:
+        """Whether masses that are off without a name help: what else is free of every name helps hardly at all."""
+        return self.masses > 0 and self.named < HELD_OUT.clearly_better * self.without
+
+    @property
+    def foretells_nothing(self) -> bool:
+        """Whether the model foretells the torque no better than a torque of zero would."""
+        return self.anew >= 1
+
+    @property
+    def useless(self) -> bool:
+        """Whether it makes no difference, found anew or not."""
+        return self.worse and self._alike and self.named > HELD_OUT.any_better * self.without
+
+    @property
+    def no_answer(self) -> bool:
+        """Whether the named ones don't clearly help either; at all, where found anew they do as well as none."""
+        return self.useless if self._alike else self.worse and self.named > HELD_OUT.clearly_better * self.without
+
+    @property
+    def _alike(self) -> bool:
+        return self.anew <= HELD_OUT.as_good_anew * self.without
+
+    def words(self) -> str:
+        """How well torque is met, in a sentence."""
+        without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
+        if not self.worse:
+            return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
+        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
+        return f"{told}; to {anew} where the causes, too, are found without it."
