@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import row_terms
 from armscope.robot.arm import Arm, build_arm
@@ -61,6 +62,21 @@ def test_a_urdf_with_the_corrected_origin_stands_where_the_link_of_another_shape
     assert np.abs(off - forward_kinematics(arm, angles)).max() > 1e-4
 
 
+def said_by_the_rest(drawn: Arm, built: Arm, angles: Array) -> bool:
+    """Whether zeros of joints 1 and 2 and the other directions of joint 2 together move an arm to where another is."""
+    step, stands = 1e-6, forward_kinematics(drawn, angles)
+    moved = [forward_kinematics(drawn, angles + step * unit) for unit in np.eye(drawn.n_motors)[:2]]
+    for each in row_terms(drawn, 2).values():
+        twist = np.zeros(6)
+        for product in each.products:
+            twist[AXES.index(product.direction.axis)] += step * product.factor
+        moved.append(forward_kinematics(drawn, angles, {"joint 2": twist}))
+    columns = np.column_stack([(each - stands).ravel() / step for each in moved])
+    wanted = (forward_kinematics(built, angles) - stands).ravel()
+    numbers, *_ = np.linalg.lstsq(columns, wanted, rcond=None)
+    return bool(np.abs(wanted - columns @ numbers).max() < 1e-2 * np.abs(wanted).max())
+
+
 @pytest.mark.parametrize("axis", ["1 0 0", "0 1 0", "0 0 1", "0 0 -1", "0 -1 0"])
 @pytest.mark.parametrize("shift", ["x", "y", "z"])
 def test_a_shift_is_told_along_the_axes_of_the_file(axis: str, shift: str, tmp_path) -> None:
@@ -81,8 +97,11 @@ def test_a_shift_is_told_along_the_axes_of_the_file(axis: str, shift: str, tmp_p
         arms.append(build(tmp_path / f"{name}.urdf"))
     drawn, built = arms
     angles = np.random.default_rng(1).uniform(-1.5, 1.5, (5, drawn.n_motors))
-    twist = np.zeros(6)
-    for product in row_terms(drawn, 2)[f"t{shift}"].products:
+    name, terms, twist = f"t{shift}", row_terms(drawn, 2), np.zeros(6)
+    if name not in terms:
+        assert said_by_the_rest(drawn, built, angles)
+        return
+    for product in terms[name].products:
         twist[AXES.index(product.direction.axis)] += 1e-3 * product.factor
     told = forward_kinematics(drawn, angles, {"joint 2": twist})
     np.testing.assert_allclose(told, forward_kinematics(built, angles), atol=1e-12)

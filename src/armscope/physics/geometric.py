@@ -32,18 +32,47 @@ def row_terms(arm: Arm, j: int) -> dict[str, Term]:
     """Constant errors of D-H row j (1-based) but for the joint's zero: a, alpha, d, and beta where axes are parallel.
 
     What each does is `armscope.robot.denavit_hartenberg.row_twist`. For a URDF there are no rows: all directions of the
-    joint's frame, named by axis (`armscope.robot.urdf_writing.axes_told`), but for the turn about its own.
+    joint's frame, named by axis (`armscope.robot.urdf_writing.axes_told`), but for the turn about its own and for what
+    the zero of the joint before does, too. So zeros are told as zeros, as by rows.
     """
     if arm.description.dh is None:
         turn = axes_told(arm)[j - 1, :3, :3].T
-        own = AXES[3 + int(np.argmax(np.abs(turn[:, 2])))]
+        own = int(np.argmax(np.abs(turn[:, 2])))
+        said = {AXES[3 + own], _said_by_the_zero_before(arm, j, turn, own)}
         units = zip(AXES, np.kron(np.eye(2), turn), strict=True)
-        twists = {axis: (f"joint {j}", unit) for axis, unit in units if axis != own}
+        twists = {axis: (f"joint {j}", unit) for axis, unit in units if axis not in said}
     else:
         parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < FORM.parallel_rad
         kinds = ("a", "alpha", "d", *(["beta"] if parallel else []))
         twists = {kind: row_twist(arm, j, kind) for kind in kinds}
     return {name: _constant(name, *twist) for name, twist in twists.items()}
+
+
+def _said_by_the_zero_before(arm: Arm, j: int, told: Array, own: int) -> str:
+    """The direction of joint j's frame in which the zero of the joint before moves it most; none of the first joint's.
+
+    Across axes that is a tilt. Along parallel ones it is a shift: a link whose far end lies to one side is a link that
+    is turned, and the joint at that end turned back.
+
+    Args:
+        arm: the nominal arm, from a URDF.
+        j: 1-based.
+        told: (3, 3) the directions that are told, in the joint's frame.
+        own: which of them is its own axis.
+
+    Returns:
+        One of `AXES`, or nothing.
+    """
+    if j == 1:
+        return ""
+    axis, lever = arm.before[j - 1][2, :3], arm.before[j - 1][:3, :3].T @ arm.before[j - 1][:3, 3]
+    tilt = np.abs(told @ axis)
+    tilt[own] = 0.0
+    if tilt.max() > FORM.parallel_rad:
+        return AXES[3 + int(np.argmax(tilt))]
+    shift = np.abs(told @ np.cross(axis, lever))
+    shift[own] = 0.0
+    return AXES[int(np.argmax(shift))] if shift.max() > ROUNDING else ""
 
 
 def _constant(name: str, location: str, twist: Array) -> Term:
