@@ -149,6 +149,25 @@ def test_a_minor_effect_that_pays_once_all_else_is_cured_is_a_task() -> None:
     assert [task.place for task in tasks[-1e-3]] == ["joint 3"]
 
 
+def test_what_a_calibration_puts_right_is_not_put_right_again() -> None:
+    """A row that was corrected once more after the calibration was off by as much again, where orders were obeyed."""
+    row = verdicts.found("link_geometry", "link 4", Parameter("d", "mm", 0.1, 0.01))
+    spring = verdicts.found("joint_compliance", "joint 2", Parameter("compliance", "rad/(N m)", 1e-6, 1e-8))
+    case = verdicts.case(effects=(row, spring))
+    worth = contributions(case.verdict)
+    large, noise, own = np.random.default_rng(0).normal(0, 1, (3, *worth.left.shape))
+    of_row = next(each for each in worth.causes if each.effects[0].family == "geometric")
+    of_spring = next(each for each in worth.causes if each is not of_row)
+    causes = (replace(of_row, moved=-0.3 * large), replace(of_spring, moved=0.5 * own))
+    worth = replace(worth, causes=causes, smaller=None, single=(), small={"geometric": large}, left=0.02 * noise)
+    tasks = work_order(case.verdict, worth).tasks
+    assert [task.change for task in tasks].count("calibration") == 1
+    (calibration,) = [task for task in tasks if task.change == "calibration"]
+    assert "link 4" in calibration.instruction
+    assert "link 4" not in [task.place for task in tasks]
+    assert tasks[-1].then_mm == pytest.approx(rms(worth.left), rel=1e-6)
+
+
 def test_commands_by_the_whole_model_stand_in_place_of_the_other_steps() -> None:
     """A zero that is set anew and then commanded away, too, is off by as much again: seen where orders were obeyed."""
     case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 3", Parameter("offset", "rad", 1e-3, 1e-5)),))

@@ -24,21 +24,35 @@ _CURES = {
 }
 """What mends a family where it has several members or small errors everywhere."""
 
+WARMING = (
+    "Let the arm warm up before you measure and before work; record `temperature_c` (best the link's own) beside the "
+    "poses and diagnose again: then its growth is told in micrometres per metre and kelvin. If the link is as cold as "
+    "it was, see whether something works loose on it."
+)
+"""What is done about a link whose length changes slowly, where no temperature says why."""
 OVER_TIME = "What follows the time moved meanwhile: fasten it and measure again; its curve corrects nothing later."
 
 
-def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool) -> str:
+def warms(family: str, worst: str) -> bool:
+    """Whether most of what drifts is a link that grows and shrinks, not base or instrument."""
+    return family == "drift" and worst.startswith("link")
+
+
+def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool, worst: str = "") -> str:
     """What to do about a cause: its only effect's cure, or what mends the whole family.
 
     Args:
         family: of the cause.
         members: its effects.
         everywhere: whether small errors of the family in the whole arm belong to it.
+        worst: where these do most; "" where nowhere stands out.
 
     Returns:
         A sentence or two.
     """
     if len(members) == 1 and not everywhere:
         return members[0].cure
+    if warms(family, worst) and not members:
+        return WARMING
     mend = _CURES.get(family, members[0].cure if members else "")
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

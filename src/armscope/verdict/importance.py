@@ -103,7 +103,7 @@ def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | No
         minor=all(effect.minor for effect in members) and not cause.everywhere,
         share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
         text=cause_in_words(cause.family, members, everywhere),
-        cure=cure_of_family(cause.family, members, cause.everywhere),
+        cure=cure_of_family(cause.family, members, cause.everywhere, everywhere.worst if everywhere else ""),
     )
 
 

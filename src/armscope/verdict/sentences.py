@@ -9,9 +9,11 @@ from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
+from armscope.verdict.family_cures import warms
 from armscope.verdict.schema import ANOTHER_MODEL, Background, Verdict
 from armscope.verdict.wording import (
     BESIDE,
+    GROWS,
     IN_ALL,
     KINDS,
     SMALL,
@@ -101,6 +103,8 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
     none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
     none_stands_out += _WORST + small.worst if small and small.worst else ""
+    if small and warms(family, small.worst):
+        none_stands_out = GROWS.format(small.worst)
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
     beside = also_out(family, told[0], members)

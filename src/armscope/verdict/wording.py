@@ -54,6 +54,8 @@ IN_ALL = {
     "drift": "base and instrument drift",
 }
 """The same where one stands out, but most of the error is everywhere."""
+GROWS = "{} grows and shrinks slowly in the course of the recording, as a link that warms up does"
+"""What is told in the place of a drift where most of it is one link's."""
 BESIDE = {"transmission": "all drives a little", "drift": "a slow drift"}
 """Small errors of a family beside one that stands out; of others: "all others a little"."""
 

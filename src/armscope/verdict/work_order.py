@@ -12,10 +12,10 @@ from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRA
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause
-from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.tasks import Task, task_of
-from armscope.verdict.wording import SMALL, capitalised, enumerated, places_in_words
+from armscope.verdict.wording import GROWS, SMALL, capitalised, enumerated, places_in_words
 
 ALL_AT_ONCE = {
     GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
@@ -76,16 +76,22 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
 
     told, single = _told_together(verdict, worth.single)
     together = [_as_one(cause, members, jobs(members)) for cause, members in told]
-    repairs, minor = [*jobs(worth.causes), *together], jobs(single)
-    present = {family.family for family in verdict.background_families if family.present and family.family in SMALL}
-    small = [(_everywhere(family), moved) for family, moved in worth.small.items() if family in present]
+    major, minor = jobs(worth.causes), jobs(single)
+    repairs = [*major, *together]
+    worst = {each.family: each.worst for each in verdict.background_families if each.present and each.family in SMALL}
+    small = [(_everywhere(family, worst[family]), moved) for family, moved in worth.small.items() if family in worst]
     before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
     first, left, _ = _by_gain([job for job in repairs if alone[id(job[0])] < before], worth.before)
+    of_geometry = zip((*major, *minor), (*worth.causes, *single), strict=True)
+    geometric = [job for job, each in of_geometry if each.effects[0].family == GEOMETRIC and not _among(job, first)]
+    small = [_calibrating(job, geometric) if job[0].change == ALL_AT_ONCE[GEOMETRIC] else job for job in small]
+    alone |= {id(task): rms(worth.before - moved) for task, moved in small}
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
-    done_so_far = {id(task) for task, _ in (*first, *then)}
-    last, left, unpaid = _by_gain([job for job in (*repairs, *small) if id(job[0]) not in done_so_far], left)
-    smaller, left, _ = _by_gain(minor, left, WORTH_OF_MINOR)
+    calibrated = geometric if any(task.change == ALL_AT_ONCE[GEOMETRIC] for task, _ in then) else []
+    waiting = [job for job in (*repairs, *small) if not _among(job, [*first, *then, *calibrated])]
+    last, left, unpaid = _by_gain(waiting, left)
+    smaller, left, _ = _by_gain([job for job in minor if not _among(job, calibrated)], left, WORTH_OF_MINOR)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
     done = [
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
@@ -168,14 +174,32 @@ def _by_gain(
     return done, left, waiting
 
 
-def _everywhere(family: str) -> Task:
+def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:
+    return any(job[0] is task for task, _ in others)
+
+
+def _calibrating(calibration: Job, geometric: Sequence[Job]) -> Job:
+    """A calibration with what else is off in the geometry by then: it fits zeros and rows afresh, so it mends that too.
+
+    Put right once more after it, a row was off by as much again.
+    """
+    task, moved = calibration
+    if not geometric:
+        return calibration
+    names = places_in_words(list(dict.fromkeys(other.place for other, _ in geometric)))
+    instruction = f"{task.instruction} This puts right {names}, too: change nothing there besides."
+    return replace(task, instruction=instruction), sum((each for _, each in geometric), moved)
+
+
+def _everywhere(family: str, worst: str) -> Task:
     """What takes out the small errors of a family in all joints and links at once."""
+    warming, usual = warms(family, worst), "in any session" if family == DRIFT else "any arm has"
     return Task(
-        what=f"{capitalised(SMALL[family])}, as {'in any session' if family == DRIFT else 'any arm has'}",
-        place="set-up" if family == DRIFT else "whole arm",
-        change=ALL_AT_ONCE[family],
+        what=capitalised(GROWS.format(worst) if warming else f"{SMALL[family]}, as {usual}"),
+        place=worst if warming else "set-up" if family == DRIFT else "whole arm",
+        change="warm-up" if warming else ALL_AT_ONCE[family],
         motion="",
-        instruction=cure_of_family(family, (), True).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
+        instruction=cure_of_family(family, (), True, worst).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
         cure="",
         confirm="Diagnose again after the repairs above: this is for what they leave.",
     )

@@ -92,7 +92,7 @@ def _cause(
         share=sum(effect.share for effect in ordered) + (small.share if small else 0.0),
         held_out_gain_mm=float(np.sqrt(max(left**2 + squared, 0.0)) - left),
         text=cause_in_words(family, ordered, small),
-        cure=cure_of_family(family, ordered, small is not None),
+        cure=cure_of_family(family, ordered, small is not None, small.worst if small else ""),
     )
 
 

@@ -16,12 +16,12 @@ from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import background_sizes
 from armscope.inference.removals import savage_dickey
 from armscope.measurement.constants import WEIGHTS
-from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, MENDED, TRANSMISSION
+from armscope.physics.backgrounds import DRIFT, ELASTIC, FAMILIES, GEOMETRIC, MENDED, TRANSMISSION
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Background, Notice, Unexplained
 
-OF_JOINTS_AND_LINKS = (GEOMETRIC, ELASTIC, TRANSMISSION)
+WITH_A_WORST_PLACE = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT)
 
 
 def background_summaries(
@@ -55,7 +55,7 @@ def background_summaries(
             best.log_posterior - without.log_posterior > TELLING.background_seen_nats
         )
         share = sum(of_families[number] for number in numbers)
-        worst = _worst_place(state, equations, coefficients) if present and family in OF_JOINTS_AND_LINKS else ""
+        worst = _worst_place(state, equations, coefficients) if present and family in WITH_A_WORST_PLACE else ""
         told.append(Background(family, present, sizes[numbers[0]], rms, share, worst))
     return tuple(told)
 
