@@ -204,3 +204,17 @@ def test_real_tables_have_no_problems_and_their_mistakes_are_still_named(name):
     if recordings.orientation is not None:
         other = replace(recordings, orientation=np.roll(recordings.orientation, -1, axis=1))
         assert "order x, y, z, w" in problems(other, arm)[0]
+
+
+@pytest.mark.parametrize("lost", [[30], [3, 14, 40, 55, 70]])
+def test_lost_readings_do_not_condemn_a_table(arm, sound, lost):
+    """One row of 0, 0, 0 in eighty was told as another robot, and nothing was diagnosed."""
+    points = sound.positions.copy()
+    points[lost] = 0.0
+    report = check(replace(sound, positions=points), arm)
+    assert not report.has_problems
+    (hint,) = [each.text() for each in report.suspicions if "where all others put the tool" in each.text()]
+    assert "exactly 0, 0, 0" in hint
+    slip = sound.positions.copy()
+    slip[lost[0], 2] *= 10
+    assert "Mistyped" in " ".join(each.text() for each in check(replace(sound, positions=slip), arm).suspicions)

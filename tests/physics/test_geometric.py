@@ -7,17 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.core.types import Array
 from armscope.physics.constants import FORM
-from armscope.physics.effect import AXES, Part
-from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram, row_terms
+from armscope.physics.effect import Part
+from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
-from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.parallelogram import Linkage, forearm_deviation
 from tests.physics.scenes import arm_named, full_table
-from tests.robot.test_urdf import build as build_urdf
 
 
 def unstated() -> Arm:
@@ -76,29 +73,3 @@ def test_a_serial_arm_has_no_linkage() -> None:
     assert is_parallelogram(unstated())
     assert not is_parallelogram(arm_named("six-axis"))
     assert not list(PARALLELOGRAM_GEOMETRY.place(arm_named("six-axis"), full_table(arm_named("six-axis"), 30, 1)))
-
-
-def test_of_a_urdfs_joints_no_direction_is_told_that_a_zero_says_as_well() -> None:
-    """With all of them, zeros of joints 2 to 4 of an arm like the UR5e were told as shifts of the joints behind."""
-    arm = build_urdf()
-    angles = np.random.default_rng(1).uniform(-1.5, 1.5, (60, arm.n_motors))
-    stands, step = forward_kinematics(arm, angles), 1e-6
-
-    def moved(joint: int, twist: Array) -> Array:
-        return (forward_kinematics(arm, angles, {f"joint {joint}": step * twist}) - stands).ravel() / step
-
-    def rank(directions: list[Array]) -> int:
-        columns = np.column_stack(directions)
-        return int(np.linalg.matrix_rank(columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-9), tol=1e-4))
-
-    told, every = [], []
-    for joint in range(1, arm.n_joints + 1):
-        units = [moved(joint, unit) for unit in np.eye(6)]
-        every += units
-        terms = row_terms(arm, joint)
-        assert len(terms) == (5 if joint == 1 else 4)
-        told.append(units[5])
-        for each in terms.values():
-            told.append(sum(units[AXES.index(p.direction.axis)] * p.factor for p in each.products))  # type: ignore[arg-type]
-    assert len(told) < len(every)
-    assert rank(told) == rank(every)

@@ -61,6 +61,9 @@ class TrialRules(Constants):
         "times what the nominal arm leaves that a stated uncertainty can't be",
         "judgement: noise is part of what is left",
     )
+    lever_mm: float = constant(
+        30.0, "of a tool, from which it matters where a payload sits", "judgement: a thick flange", unit="mm"
+    )
     exchanged: float = constant(
         10,
         "times the usual misfit beyond which two rows may have exchanged their points",

@@ -128,6 +128,13 @@ def _limits(arm: Arm, recordings: Recordings) -> list[Notice]:
     ):
         if values is not None and not varies(values, least):
             notices.append(Notice("constant context", f"{name} hardly varies: what follows it can't be found."))
+    loaded = recordings.payload is not None and np.nan_to_num(recordings.payload).max() > 0
+    if loaded and not any(arm.description.tool_mm):
+        text = (
+            "Payloads are recorded and no `tool_mm` is stated: each counts as sitting in the last frame's origin. What "
+            "gives way comes out wrong by its lever; `armscope check` tells where the points put the tool."
+        )
+        notices.append(Notice("payload's place", text))
     if not arm.has_masses and recordings.torque is None:
         text = "No link masses and no recorded torques: compliances are known up to unknown mass moments only."
         notices.append(Notice("no loads", text))

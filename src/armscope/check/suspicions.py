@@ -18,6 +18,7 @@ from armscope.check.common_mistakes import Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
+from armscope.check.payload import payload_at_the_flange
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.grouping import same_configuration
@@ -62,7 +63,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
     if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())
-    state = placed(rows, TRIALS.steps)
+    state = _placed_by_most(rows)
     misfit = rms_distance(rows.residuals(state))
     spread = max(_spread(some), _predicted_spread(rows, state))
     found: list[Suspicion] = []
@@ -74,12 +75,25 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     else:
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
         found += _rows_far_off(arm, recordings)
+        found += payload_at_the_flange(arm, recordings, state)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 
         turned = orientation_mistakes(rows, state, some.orientation)
         found += turned
         found += _moved_tools(arm, replace(some, orientation=None) if turned else some)
     return Consistency(misfit, spread, len(some), (*found, *_outside_limits(arm, recordings)), orientations=not turned)
+
+
+def _placed_by_most(rows: SetUp) -> State:
+    """Base and tool, by least squares; by most of the rows where these explain the points and all of them do not.
+
+    One lost reading of metres, or a slip of the decimal point, puts all others off.
+    """
+    state = placed(rows, TRIALS.steps)
+    if _share_left(rows, state) <= TRIALS.fits:
+        return state
+    by_most = robust_least_squares(rows, state, rows.free("nominal")).state
+    return by_most if _share_left(rows, by_most) <= TRIALS.fits else state
 
 
 def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion]:
@@ -192,7 +206,7 @@ def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
     """Rows whose points fit each other's angles, in pairs or rings, and rows whose points fit nobody's."""
     some = recordings.rows(slice(0, TRIALS.rows_for_exchange))
     rows = set_up(arm, some)
-    state = placed(rows, TRIALS.steps)
+    state = _placed_by_most(rows)
     residuals = rows.residuals(state)
     misfit = scale_of(residuals)
     if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * misfit:
@@ -221,6 +235,8 @@ def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
         off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
         statement = f"{number} {off} from where all others put the tool: {_ids(some, alone)}"
         cure = "Mistyped, or measured while the arm moved? Mend it, or leave out what can't be measured again."
+        if not some.positions[alone].any():
+            cure = "Their points are exactly 0, 0, 0: readings that were lost. Leave them out."
         found.append(Suspicion("hint", statement, cure))
     return found
 

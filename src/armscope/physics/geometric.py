@@ -13,6 +13,7 @@ from armscope.physics.clause import Told, swings, waves_column
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
+from armscope.physics.joint_directions import directions_of_a_joint
 from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import Scene
@@ -21,7 +22,6 @@ from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.parallelogram import forearm_deviation
-from armscope.robot.urdf_writing import axes_told
 
 MILLIMETRE = 1e-3
 ROUNDING = 1e-9
@@ -31,48 +31,16 @@ ROUNDING = 1e-9
 def row_terms(arm: Arm, j: int) -> dict[str, Term]:
     """Constant errors of D-H row j (1-based) but for the joint's zero: a, alpha, d, and beta where axes are parallel.
 
-    What each does is `armscope.robot.denavit_hartenberg.row_twist`. For a URDF there are no rows: all directions of the
-    joint's frame, named by axis (`armscope.robot.urdf_writing.axes_told`), but for the turn about its own and for what
-    the zero of the joint before does, too. So zeros are told as zeros, as by rows.
+    What each does is `armscope.robot.denavit_hartenberg.row_twist`. A URDF has no rows but
+    `directions_of_a_joint`.
     """
     if arm.description.dh is None:
-        turn = axes_told(arm)[j - 1, :3, :3].T
-        own = int(np.argmax(np.abs(turn[:, 2])))
-        said = {AXES[3 + own], _said_by_the_zero_before(arm, j, turn, own)}
-        units = zip(AXES, np.kron(np.eye(2), turn), strict=True)
-        twists = {axis: (f"joint {j}", unit) for axis, unit in units if axis not in said}
+        twists = {axis: (f"joint {j}", twist) for axis, twist in directions_of_a_joint(arm, j).items()}
     else:
         parallel = abs(np.sin(np.radians(arm.description.dh.joints[j - 1].alpha_deg))) < FORM.parallel_rad
         kinds = ("a", "alpha", "d", *(["beta"] if parallel else []))
         twists = {kind: row_twist(arm, j, kind) for kind in kinds}
     return {name: _constant(name, *twist) for name, twist in twists.items()}
-
-
-def _said_by_the_zero_before(arm: Arm, j: int, told: Array, own: int) -> str:
-    """The direction of joint j's frame in which the zero of the joint before moves it most; none of the first joint's.
-
-    Across axes that is a tilt. Along parallel ones it is a shift: a link whose far end lies to one side is a link that
-    is turned, and the joint at that end turned back.
-
-    Args:
-        arm: the nominal arm, from a URDF.
-        j: 1-based.
-        told: (3, 3) the directions that are told, in the joint's frame.
-        own: which of them is its own axis.
-
-    Returns:
-        One of `AXES`, or nothing.
-    """
-    if j == 1:
-        return ""
-    axis, lever = arm.before[j - 1][2, :3], arm.before[j - 1][:3, :3].T @ arm.before[j - 1][:3, 3]
-    tilt = np.abs(told @ axis)
-    tilt[own] = 0.0
-    if tilt.max() > FORM.parallel_rad:
-        return AXES[3 + int(np.argmax(tilt))]
-    shift = np.abs(told @ np.cross(axis, lever))
-    shift[own] = 0.0
-    return AXES[int(np.argmax(shift))] if shift.max() > ROUNDING else ""
 
 
 def _constant(name: str, location: str, twist: Array) -> Term:
