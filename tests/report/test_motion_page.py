@@ -27,6 +27,7 @@ from armscope.report.figures.motion import draw_friction, draw_trace
 from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
+from armscope.report.sections import motion_work
 from armscope.report.sections.motion import (
     MOTION_SECTIONS,
     arm_of_motion,
@@ -69,7 +70,7 @@ def test_the_page_needs_no_network_and_obeys_no_name(page: str) -> None:
 def test_masses_without_a_name_are_no_rest_that_follows_nothing(found: MotionDiagnosis, tmp_path: Path) -> None:
     verdict = replace(found.verdict, effects=(), masses_share=0.1)
     for answer, told in (("cannot tell", "masses that are off at all links"), ("nothing missing", "beyond ordinary")):
-        unnamed = replace(found, verdict=replace(verdict, answer=answer), entered=found.entered[:1])
+        unnamed = replace(found, verdict=replace(verdict, answer=answer), entered=found.entered[:2])
         page = write_motion_report(unnamed, "motions.csv", tmp_path).read_text(encoding="utf-8")
         assert f"No place stands out: {told}" in page
 
@@ -99,7 +100,7 @@ def test_the_work_order_has_a_line_per_cause_with_its_cure_and_the_error_after_i
     main = [cause for cause in found.verdict.effects if not cause.minor]
     assert order.count("Confirm first:") == len(main) <= IN_FULL
     assert f"{error_in_words(found.entered[0])} after this" in order
-    for number, (cause, error) in enumerate(zip(main, found.entered[1:], strict=False), start=2):
+    for number, (cause, error) in enumerate(zip(main, found.entered[2:], strict=False), start=2):
         assert cause.cure.replace("`", "") in order
         assert f"{error_in_words(error)} after 1 to {number}" in order
     assert all(f"<td>{each.joint}</td>" in order for each in found.verdict.background)
@@ -124,9 +125,9 @@ def test_errors_to_expect_hold_for_the_numbers_that_are_entered(found: MotionDia
         missed.append(moving * (fold.rows.torque[fold.which] - said))
         torque.append(moving * fold.rows.torque[fold.which])
     by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
-    assert found.entered[1] == pytest.approx(by_hand, rel=1e-6), cause.title
-    assert found.entered[0] > 2 * found.entered[1]
-    assert found.entered[1] < 3 * found.verdict.held_out.model
+    assert found.entered[2] == pytest.approx(by_hand, rel=1e-6), cause.title
+    assert found.entered[0] > 2 * found.entered[2]
+    assert found.entered[2] < 3 * found.verdict.held_out.model
 
 
 def many_tasks(found: MotionDiagnosis, close: Alternative) -> MotionDiagnosis:
@@ -138,7 +139,7 @@ def many_tasks(found: MotionDiagnosis, close: Alternative) -> MotionDiagnosis:
     step = found.verdict.waterfall[-1]
     falling = (*found.verdict.waterfall[:2], *(replace(step, label=each.title) for each in more))
     verdict = replace(found.verdict, effects=more, waterfall=falling)
-    return replace(found, verdict=verdict, entered=(*entered[:1], *entered[1:2] * wanted))
+    return replace(found, verdict=verdict, entered=(*entered[:2], *entered[2:3] * wanted))
 
 
 def test_the_command_that_is_printed_runs_as_it_is(
@@ -193,7 +194,7 @@ def test_the_table_of_the_work_order_fits_a_telephone(found: MotionDiagnosis, tm
 
 
 def test_masses_are_told_to_be_taken_along_where_they_matter(
-    found: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch
+    found: MotionDiagnosis, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     friction, masses, *rest = found.verdict.waterfall
 
@@ -206,8 +207,18 @@ def test_masses_are_told_to_be_taken_along_where_they_matter(
     assert masses_matter(with_masses_at(0.014))
     assert not masses_matter(with_masses_at(0.1601))
     told = motion_work_order(with_masses_at(0.014))
-    assert "corrected.urdf" in told["tasks"][0].cure
-    assert "corrected.urdf" not in motion_work_order(with_masses_at(0.1601))["tasks"][0].cure
+    assert told["apart"] == error_in_words(found.entered[1]), "a step of its own, before the causes"
+    assert "corrected.urdf" not in told["tasks"][0].cure
+    write_motion_report(with_masses_at(0.014).found, "motions.csv", tmp_path)
+    order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
+    step = f"they were fitted along. <b>Expect:</b> {told['apart']}"
+    assert step in order
+    assert f"{error_in_words(found.entered[2])} after 1 to 3, masses included" in order
+    assert not motion_work_order(with_masses_at(0.1601))["apart"]
+    monkeypatch.setattr(motion_work, "_is_in_bodies", lambda cause: True)
+    with_a_body = motion_work_order(with_masses_at(0.014))
+    assert not with_a_body["apart"], "that file holds the cause's change, too"
+    assert "corrected.urdf" in with_a_body["tasks"][0].cure
 
 
 @pytest.mark.parametrize(

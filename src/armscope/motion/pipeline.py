@@ -51,6 +51,7 @@ from armscope.motion.summary.judgement import (
     found_causes,
     headline,
     joint_backgrounds,
+    masses_lead,
     unexplained,
 )
 from armscope.motion.summary.lasting import lasting_torques, told_of_lasting
@@ -258,11 +259,10 @@ def _judged(
     found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
     moving = joints_in_motion(selected.rows.still)
+    likeliest = likeliest_in_words(selected) if errors.only_unnamed or masses_lead(found, errors) else ""
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(
-            as_one(found, moving), errors, lasting, likeliest_in_words(selected) if errors.only_unnamed else ""
-        ),
+        headline=headline(as_one(found, moving), errors, lasting, likeliest),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,

@@ -87,3 +87,13 @@ def test_what_is_large_or_helps_is_part_of_the_story() -> None:
     assert answer_of([small], UnexplainedTorque(False), helps) == ("explained", True)
     much_worse = HeldOutErrors(0.0060, 0.0200, 0.0058)
     assert answer_of([small], UnexplainedTorque(False), much_worse) == ("cannot tell", True)
+
+
+def test_masses_that_explain_most_come_first() -> None:
+    """87 % "without a name" stood behind a friction of 3 %."""
+    small, errors = replace(beside(), share=0.033), HeldOutErrors(0.033, 0.013, 0.013, masses=0.1, by_masses=0.87)
+    told = headline([small], errors, likeliest="The likeliest name: link 2. ")
+    assert told.startswith("Masses of the links that are off without a name add 87 % of what friction and rotors leave")
+    assert told.index("The likeliest name") < told.index("3.3 %")
+    large = replace(beside(), share=0.9)
+    assert headline([large], errors).index("90 %") < headline([large], errors).index("add 87 %")

@@ -233,14 +233,14 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
         order: candidates in the order in which they are entered.
 
     Returns:
-        With friction and rotors; then with masses and gains as fitted and the first cause; then with each cause more.
+        With friction and rotors; then with masses and gains as fitted; then with each cause more.
     """
     layout, best = selected.rows.layout, selected.best
     own = layout.own.reshape(-1, OWN)[:, 1:CAUSES_OF_OWN]
     causes = [layout.columns[number] for number in order]
     friction = np.setdiff1d(own, np.concatenate([np.empty(0, dtype=np.intp), *causes]))
     masses = np.setdiff1d([*layout.masses, *layout.gains], np.concatenate([np.empty(0, dtype=np.intp), *causes]))
-    states = [friction, *(np.concatenate([friction, masses, *causes[: n + 1]]) for n in range(len(causes)))]
+    states = [friction, *(np.concatenate([friction, masses, *causes[:n]]) for n in range(len(causes) + 1))]
     missed: list[list[Array]] = [[] for _ in states]
     torques: list[Array] = []
     for fold in parts:

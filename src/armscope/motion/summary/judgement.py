@@ -224,9 +224,17 @@ def headline(
     causes = "; ".join(
         f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
-    unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}. "
-    unnamed = unnamed if errors.by_masses >= TELLING.minor_share else ""
+    unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}"
+    if masses_lead(found, errors):
+        first = f"{unnamed}{of_what[0]}; corrected.urdf has them as fitted. {likeliest}"
+        return f"{first}{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
+    unnamed = f"{unnamed}. " if errors.by_masses >= TELLING.minor_share else ""
     return f"{capitalised(causes)}. {_further(rest)}{unnamed}{beyond}{errors.words()}"
+
+
+def masses_lead(found: Sequence[FoundCause], errors: HeldOutErrors) -> bool:
+    """Whether masses that are off without a name explain more than any cause that is told."""
+    return errors.by_masses > max((cause.share for cause in _told(found)), default=0.0)
 
 
 def apart_where_useless(found: Sequence[FoundCause], errors: HeldOutErrors) -> list[FoundCause]:

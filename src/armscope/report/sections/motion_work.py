@@ -40,19 +40,21 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
     """
     verdict = subject.verdict
-    background, *after = subject.found.entered
+    background, with_masses, *after = subject.found.entered
     expected_after = {cause.title: error for cause, error in zip(verdict.effects, after, strict=True)}
     moving = len(subject.moving)
     for cause in of_one_clock(verdict.effects, moving):  # they stand together: one step, with the error after the last
         expected_after[ONE_CLOCK] = expected_after[cause.title]
     causes = as_one(verdict.effects, moving)
     masses = masses_matter(subject)
+    told = [each for each in causes if not each.minor]
+    apart = masses and not any(_is_in_bodies(each) for each in told)
     tasks = []
-    for number, cause in enumerate((each for each in causes if not each.minor), start=1):
+    for number, cause in enumerate(told, start=1):
         card = motion_card(cause, number)
         rivals = tuple(other.name for other in card.alternatives if other.too_close)
         expected = error_in_words(expected_after[cause.title])
-        cure = f"{card.cure} {_masses_too(cause)}" if masses and number == 1 else card.cure
+        cure = f"{card.cure} {_masses_too(cause)}" if masses and not apart and number == 1 else card.cure
         tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected))
     held_out = verdict.held_out
     return {
@@ -60,6 +62,8 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         "more": tasks[IN_FULL:],
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
         "masses": masses,
+        "apart": error_in_words(with_masses) if apart else "",
+        "urdf": URDF,
         "minor": [cause.title for cause in causes if cause.minor],
         "now": error_in_words(held_out.stated),
         "background": error_in_words(background),
@@ -76,9 +80,14 @@ def masses_matter(subject: MotionSubject) -> bool:
     return error_in_words(before) != error_in_words(with_masses)
 
 
-def _masses_too(cause: FoundCause) -> str:
+def _is_in_bodies(cause: FoundCause) -> bool:
+    """Whether the URDF of corrected masses holds what a cause changes."""
     known = cause_named(cause.effect)
-    there = " (where this is done already)" if known and known.in_bodies and " in run " not in cause.title else ""
+    return bool(known and known.in_bodies and " in run " not in cause.title)
+
+
+def _masses_too(cause: FoundCause) -> str:
+    there = " (where this is done already)" if _is_in_bodies(cause) else ""
     return f"Take the links' masses and inertias from {URDF}{there}: they were fitted along."
 
 
