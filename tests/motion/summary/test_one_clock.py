@@ -101,4 +101,4 @@ def test_the_work_order_has_one_step_with_the_error_after_the_last_delay(found: 
     told = motion_work_order(MotionSubject(copy.copy(found), "motions.csv"))
     assert "of all joints (one clock)" in told["tasks"][0].said
     assert not [task for task in (*told["tasks"][1:], *told["more"]) if "too late" in task.said]
-    assert told["tasks"][0].expected == error_in_words(found.entered[3])
+    assert told["tasks"][0].expected == error_in_words(found.entered[4])
