@@ -20,7 +20,7 @@ from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
-from armscope.verdict.schema import HeldOut
+from armscope.verdict.schema import ANOTHER_MODEL, HeldOut, Notice
 from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
@@ -166,6 +166,17 @@ def test_what_a_calibration_puts_right_is_not_put_right_again() -> None:
     assert "link 4" in calibration.instruction
     assert "link 4" not in [task.place for task in tasks]
     assert tasks[-1].then_mm == pytest.approx(rms(worth.left), rel=1e-6)
+
+
+def test_where_it_is_another_model_of_the_arm_nothing_is_corrected(tmp_path: Path) -> None:
+    """A UR5e's recordings beside a UR5: its links were to be "corrected" by 20 mm, step by step."""
+    case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 3", Parameter("offset", "rad", 1e-3, 1e-5)),))
+    another = Notice(ANOTHER_MODEL, "Is this another model of the arm? A UR5e leaves 1 mm where this one leaves 15 mm.")
+    for notices, told in (((another,), True), ((), False)):
+        write_report(replace(case.verdict, notices=notices), tmp_path)
+        page = (tmp_path / "work-order.html").read_text(encoding="utf-8")
+        assert ("Change nothing at the arm" in page) == ("by this model of the arm" in page) == told
+        assert ("<b>Do:</b>" in page) == ("once these steps are done" in page) == (not told)
 
 
 def test_commands_by_the_whole_model_stand_in_place_of_the_other_steps() -> None:

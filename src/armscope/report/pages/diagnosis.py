@@ -73,13 +73,15 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
     if kinematics is not None:
         write_yaml(folder / UR, kinematics)
     dh = verdict.model.arm.description.dh
-    steps = [task for task in subject.order.tasks if not task.instead]
+    another = another_model(verdict)
+    tasks = () if another else subject.order.tasks
     content = {
         **_about(verdict),
         "order": subject.order,
         "before": rms(subject.worth.before),
-        "left": min((task.then_mm for task in steps), default=None),
-        "instead": min((task.then_mm for task in subject.order.tasks if task.instead), default=None),
+        "another": another,
+        "left": min((task.then_mm for task in tasks if not task.instead), default=None),
+        "instead": min((task.then_mm for task in tasks if task.instead), default=None),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "differ": from_part_to_part(verdict),
