@@ -43,7 +43,6 @@ def wandering(table, seed):
     return replace(table, positions=table.positions + np.cumsum(steps, axis=0))
 
 
-@pytest.mark.long
 def test_where_nothing_changed_nothing_is_named_at_the_stated_rate():
     """The number named by chance is binomial with at most LEVEL: more than 4 of 24 has a probability below 1 %.
 
