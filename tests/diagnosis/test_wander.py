@@ -38,10 +38,16 @@ def wandering(table: Recordings, size_mm: float) -> Recordings:
     return replace(table, positions=table.positions + 1e-3 * size_mm * shape)
 
 
-def warming(arm: Arm, table: Recordings, kelvin: float) -> Recordings:
-    """The table of a steel arm that warmed up in its first hours, without anybody's measuring how warm it was."""
-    dh = arm.description.dh
-    rows = [row.model_copy(update={"a_mm": row.a_mm * 1.001, "d_mm": row.d_mm * 1.001}) for row in dh.joints]
+def warming(arm: Arm, table: Recordings, kelvin: float, only: int | None = None) -> Recordings:
+    """The table of a steel arm that warmed up in its first hours, without anybody's measuring how warm it was.
+
+    The whole arm, or one link (1-based) only.
+    """
+    dh, share = arm.description.dh, 1.001
+    rows = [
+        row.model_copy(update={"a_mm": row.a_mm * share, "d_mm": row.d_mm * share}) if only in (None, j) else row
+        for j, row in enumerate(dh.joints, start=1)
+    ]
     longer = build_arm(arm.description.model_copy(update={"dh": dh.model_copy(update={"joints": tuple(rows)})}))
     growth = forward_kinematics(longer, table.motor_angles) - forward_kinematics(arm, table.motor_angles)
     warmth = kelvin * (1 - np.exp(-table.time / 4000))
@@ -59,6 +65,18 @@ def test_a_slow_wander_is_background_and_no_jump() -> None:
     assert verdict.effects == ()
     assert drift_of(verdict) == pytest.approx(0.02 / np.sqrt(3), rel=0.3)
     assert "slow drift of base and instrument" in verdict.headline
+    assert next(cause for cause in verdict.causes if cause.family == "drift").cure.startswith("Fasten the instrument")
+
+
+@pytest.mark.parametrize("link", [2, 4])
+def test_a_link_that_warms_up_by_itself_is_told_as_that_and_no_loose_base(link: int) -> None:
+    """What was bolted down was to be fastened, and the error stayed."""
+    arm, table = session()
+    verdict = diagnose(arm, warming(arm, table, 60.0, link), QUICK)
+    drift = next(cause for cause in verdict.causes if cause.family == "drift")
+    assert drift.text.startswith(f"link {link} grows and shrinks slowly")
+    assert "temperature_c" in drift.cure
+    assert "base" not in drift.text
 
 
 def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from xml.etree import ElementTree
+
 import numpy as np
+import pytest
 
 from armscope.core.types import Array
+from armscope.physics.effect import AXES
 from armscope.physics.joint_directions import directions_of_a_joint
 from armscope.robot.kinematics import forward_kinematics
+from tests.robot.test_urdf import TORSO_ARM
 from tests.robot.test_urdf import build as build_urdf
 
 
@@ -33,3 +39,18 @@ def test_of_a_urdfs_joints_no_direction_is_told_that_a_zero_says_as_well() -> No
         told += [moved(joint, twist) for twist in told_here.values()]
     assert len(told) < len(every)
     assert rank(told) == rank(every)
+
+
+@pytest.mark.parametrize(("leans", "left_out"), [(0.0, "ty"), (0.02, "ty"), (np.pi / 2, "rx")])
+def test_of_axes_that_are_parallel_or_nearly_it_is_a_shift(leans: float, left_out: str, tmp_path: Path) -> None:
+    file = ElementTree.parse(TORSO_ARM)
+    joint = next(each for each in file.getroot().findall("joint") if each.get("name") == build_urdf().joint_names[1])
+    turning, origin = joint.find("axis"), joint.find("origin")
+    assert turning is not None
+    assert origin is not None
+    turning.set("xyz", "0 0 1")
+    origin.set("xyz", "0.4 0 0.1")
+    origin.set("rpy", f"{leans} 0 0")
+    file.write(tmp_path / "arm.urdf")
+    told = directions_of_a_joint(build_urdf(tmp_path / "arm.urdf"), 2)
+    assert set(AXES) - set(told) - {"rz"} == ({left_out} if leans < 1 else {"ry"})

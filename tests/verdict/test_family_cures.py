@@ -26,3 +26,10 @@ def test_small_errors_of_every_family_have_words(family: str) -> None:
 def test_a_family_without_words_of_its_own_is_mended_as_its_largest_effect() -> None:
     scale = verdicts.found("instrument_scale", "instrument")
     assert cure_of_family("instrument", [scale, scale], everywhere=False) == scale.cure
+
+
+def test_a_link_that_warms_up_is_no_loose_base() -> None:
+    """Somebody was told to fasten what was bolted down: the error stayed."""
+    assert "temperature_c" in cure_of_family("drift", (), everywhere=True, worst="link 2")
+    for worst in ("", "base"):
+        assert cure_of_family("drift", (), everywhere=True, worst=worst).startswith("Fasten the instrument")

@@ -168,6 +168,22 @@ def test_what_a_calibration_puts_right_is_not_put_right_again() -> None:
     assert tasks[-1].then_mm == pytest.approx(rms(worth.left), rel=1e-6)
 
 
+def test_a_row_is_corrected_by_itself_or_with_the_calibration_never_both() -> None:
+    """Where the calibration pays only in the end, too."""
+    row = verdicts.found("link_geometry", "link 4", Parameter("d", "mm", 0.1, 0.01))
+    spring = verdicts.found("joint_compliance", "joint 2", Parameter("compliance", "rad/(N m)", 1e-6, 1e-8))
+    case = verdicts.case(effects=(row, spring))
+    worth = contributions(case.verdict)
+    large, other, noise = np.random.default_rng(0).normal(0, 1, (3, *worth.left.shape))
+    of_row, of_spring = sorted(worth.causes, key=lambda each: each.effects[0].location, reverse=True)
+    # alone, the calibration makes it worse: what it puts right lies against the spring's
+    causes = (replace(of_row, moved=-0.5 * large + 0.1 * other), replace(of_spring, moved=2 * large))
+    worth = replace(worth, causes=causes, smaller=None, single=(), small={"geometric": -0.4 * large}, left=0.02 * noise)
+    tasks = work_order(case.verdict, worth).tasks
+    assert [task.place for task in tasks] == ["joint 2", "whole arm"]
+    assert tasks[-1].then_mm == pytest.approx(rms(worth.left), rel=1e-6)
+
+
 def test_where_it_is_another_model_of_the_arm_nothing_is_corrected(tmp_path: Path) -> None:
     """A UR5e's recordings beside a UR5: its links were to be "corrected" by 20 mm, step by step."""
     case = verdicts.case(effects=(verdicts.found("joint_offset", "joint 3", Parameter("offset", "rad", 1e-3, 1e-5)),))

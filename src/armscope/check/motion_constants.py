@@ -75,7 +75,7 @@ class MotionRules(Constants):
         2.0,
         "times less that joints' torques must leave, shares multiplied, with a zero elsewhere",
         "measured: 1.25 at most in 416 recordings whose zeros are right; turned by 90 deg at a random joint between "
-        "the first and the last, 408 of them are told, with the right joint",
+        "the first and the last, 408 of them are told, with the right joint; set when half of these had been seen",
     )
     no_other_zero: float = constant(
         100.0,

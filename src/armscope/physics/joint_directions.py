@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM
 from armscope.physics.effect import AXES
 from armscope.robot import Arm
 from armscope.robot.urdf_writing import axes_told
@@ -37,8 +36,9 @@ def directions_of_a_joint(arm: Arm, j: int) -> dict[str, Array]:
 def _said_by_the_zero_before(arm: Arm, j: int, told: Array, own: int) -> str:
     """The direction of joint j's frame in which the zero of the joint before moves it most; none of the first joint's.
 
-    Across axes that is a tilt. Along parallel ones it is a shift: a link whose far end lies to one side is a link that
-    is turned, and the joint at that end turned back.
+    Across axes that is a tilt. Along parallel ones, or nearly, it is a shift: a link whose far end lies to one side is
+    a link that is turned, and the joint at that end turned back. Measured in tolerances, of a millimetre and a
+    milliradian.
 
     Args:
         arm: the nominal arm, from a URDF.
@@ -52,10 +52,6 @@ def _said_by_the_zero_before(arm: Arm, j: int, told: Array, own: int) -> str:
     if j == 1:
         return ""
     axis, lever = arm.before[j - 1][2, :3], arm.before[j - 1][:3, :3].T @ arm.before[j - 1][:3, 3]
-    tilt = np.abs(told @ axis)
-    tilt[own] = 0.0
-    if tilt.max() > FORM.parallel_rad:
-        return AXES[3 + int(np.argmax(tilt))]
-    shift = np.abs(told @ np.cross(axis, lever))
-    shift[own] = 0.0
-    return AXES[int(np.argmax(shift))] if shift.max() > ROUNDING else ""
+    moved = np.abs(np.array([told @ np.cross(axis, lever), told @ axis]))  # mm and mrad per mrad: their tolerances
+    moved[:, own] = 0.0
+    return AXES[int(np.argmax(moved))] if moved.max() > ROUNDING else ""

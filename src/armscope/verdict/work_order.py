@@ -83,15 +83,19 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
     first, left, _ = _by_gain([job for job in repairs if alone[id(job[0])] < before], worth.before)
-    of_geometry = zip((*major, *minor), (*worth.causes, *single), strict=True)
-    geometric = [job for job, each in of_geometry if each.effects[0].family == GEOMETRIC and not _among(job, first)]
+    families = [each.effects[0].family for each in (*worth.causes, *single)] + [cause.family for cause, _ in told]
+    of_geometry = zip((*major, *minor, *together), families, strict=True)
+    geometric = [job for job, family in of_geometry if family == GEOMETRIC and not _among(job, first)]
     small = [_calibrating(job, geometric) if job[0].change == ALL_AT_ONCE[GEOMETRIC] else job for job in small]
     alone |= {id(task): rms(worth.before - moved) for task, moved in small}
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
-    calibrated = geometric if any(task.change == ALL_AT_ONCE[GEOMETRIC] for task, _ in then) else []
-    waiting = [job for job in (*repairs, *small) if not _among(job, [*first, *then, *calibrated])]
-    last, left, unpaid = _by_gain(waiting, left)
-    smaller, left, _ = _by_gain([job for job in minor if not _among(job, calibrated)], left, WORTH_OF_MINOR)
+    done_so_far = [*first, *then, *geometric]
+    last, left, unpaid = _by_gain([job for job in (*repairs, *small) if not _among(job, done_so_far)], left)
+    if not any(task.change == ALL_AT_ONCE[GEOMETRIC] for task, _ in (*then, *last)):  # none puts their geometry right
+        by_themselves = [job for job in repairs if _among(job, geometric)]
+        more, left, waiting = _by_gain(by_themselves, left)
+        last, unpaid, geometric = [*last, *more], [*unpaid, *waiting], []
+    smaller, left, _ = _by_gain([job for job in minor if not _among(job, geometric)], left, WORTH_OF_MINOR)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
     done = [
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)

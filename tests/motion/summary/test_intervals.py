@@ -63,3 +63,16 @@ def test_a_number_that_two_paths_tell_differently_is_known_less_well() -> None:
     assert half_width(apart, 0) > 0.25, "half of the difference"
     assert half_width(apart, 2) < 2 * half_width(alike, 2), "another joint is as well known as before"
     assert VISCOUS[0] == pytest.approx(alike.verdict.background[0].parameters[1].value, abs=3 * half_width(alike, 0))
+
+
+def test_what_stands_for_a_cause_acts_on_its_joint(loaded: Motions) -> None:
+    """Friction of another joint, which was there too, was told as "31.9 nats better, too close to tell apart"."""
+    offset = np.array([0.0, 0.0, 1.5])
+    late = dataclasses.replace(loaded, effort=loaded.effort + offset)
+    found = diagnose_motion(robot(), late, MotionSettings(cutoff=10.0))
+    placed = found.selected.rows.layout.placed
+    assert len(found.selected.best.candidates) > 1
+    for number, rivals in found.sure.rivals.items():
+        assert rivals
+        for rival in rivals:
+            assert set(placed[rival.chosen[-1].candidate].joints) & set(placed[number].joints)

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from armscope.motion.library import catalogue
+from armscope.motion.library.causes import Cause
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.summary import link_weights
+from armscope.motion.summary.link_weights import rather_all_links
 from armscope.motion.verdict import FoundCause
 from tests.motion.moving import ROBOT, moved, robot
 
@@ -65,3 +71,33 @@ def test_a_link_that_alone_is_off_has_its_name_as_ever() -> None:
     found = off_by((1.0, 1.2, 1.0))
     assert [*told(found, "link_mass")] == ["link 2"]
     assert found.verdict.masses_share == 0.0
+
+
+@pytest.mark.parametrize(("kind", "stays"), [(catalogue.BODY, True), (catalogue.LINK_MASS, False)])
+def test_a_body_that_is_missing_is_not_weighed_against_all_links(
+    kind: Cause, stays: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A hand that was not on a real arm lost its name to links that are all off a little, by 1.3 nats."""
+    placed = SimpleNamespace(inertial=np.ones((10, 1)), runs=(), cause=kind)
+    best = SimpleNamespace(candidates=frozenset([0]), background=(0, 0), log_posterior=100.0)
+    families = [SimpleNamespace(name=name) for name in ("masses", "link masses")]
+    selected: Any = Selection(best, SimpleNamespace(layout=SimpleNamespace(placed=[placed])), families)
+    nearly = SimpleNamespace(candidates=frozenset(), background=(2, 2), log_posterior=98.7)
+    search = SimpleNamespace(on=lambda problem: SimpleNamespace(best=lambda starts: nearly))
+    monkeypatch.setattr(link_weights, "Search", search)
+    monkeypatch.setattr(link_weights, "at_own_gain", lambda found: found)
+    assert (rather_all_links(selected, (2, 2)).best is best) == stays
+
+
+@dataclass(frozen=True)
+class Selection:
+    """As much of one as is looked at."""
+
+    best: Any
+    rows: Any
+    families: Any
+    problem: Any = None
+
+    @property
+    def space(self) -> Any:
+        return SimpleNamespace(families=self.families)

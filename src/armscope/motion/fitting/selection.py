@@ -29,7 +29,7 @@ from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.laws import follows_motion
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
-from armscope.motion.library.masses import EXTENDED
+from armscope.motion.library.masses import has_its_own_inertia
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
 
@@ -115,7 +115,7 @@ def _with_bodies(selected: SelectedCauses, rate: float) -> SelectedCauses:
     where its centre is.
     """
     layout, best, competes = selected.rows.layout, selected.best, selected.space.candidates
-    loads = [n for n in best.candidates if layout.placed[n].variant.endswith(EXTENDED)]
+    loads = [n for n in best.candidates if has_its_own_inertia(layout.placed[n])]
     barred = frozenset(n for n in loads if sits_nowhere(selected, n))
     if not barred:
         return selected

@@ -17,9 +17,6 @@ from armscope.motion.library.for_a_while import INERTIA, OF_A_LOAD, of_a_load
 from armscope.motion.library.laws import Law
 from armscope.robot.dynamics import MovingArm, leaning_gravity, moved_centre
 
-EXTENDED = "extended"
-"""The form of a load that has an inertia of its own: with it, it is all that its link's numbers can be off by."""
-
 
 def place_masses(seen: Seen) -> Iterator[PlacedCause]:
     """Every cause that is made of inertial parameters, and gravity's direction."""
@@ -83,6 +80,11 @@ def as_a_body(placed: PlacedCause, arm: MovingArm, values: Array, stated: float 
         return placed
     own = placed.inertial[:, len(axes) :]
     return replace(placed, inertial=np.hstack([of_a_load(arm, values, stated)[:, axes], own]))
+
+
+def has_its_own_inertia(placed: PlacedCause) -> bool:
+    """Whether it is a load that is no point: all that the numbers of its link can be off by."""
+    return placed.cause is catalogue.PAYLOAD and any(parameter in INERTIA for parameter in placed.parameters)
 
 
 def shown(seen: Seen, inertial: Array) -> Indices:
@@ -155,7 +157,7 @@ def _payloads(seen: Seen, columns: Array) -> Iterator[PlacedCause]:
         yield from _inertial(
             seen, catalogue.PAYLOAD, "payload", anywhere, columns, variant=f"{name} free".strip(), **more
         )
-        names, form = (*anywhere, *INERTIA), f"{name} {EXTENDED}".strip()
+        names, form = (*anywhere, *INERTIA), f"{name} extended".strip()
         yield from _inertial(seen, catalogue.PAYLOAD, "payload", names, extended, likely, variant=form, **more)
     for body, inertial in seen.arm.attached:
         if inertial[::10].max() > LIBRARY.least_body * seen.arm.inertial[10 * int(inertial[::10].argmax())]:

@@ -66,22 +66,22 @@ class HeldOutRules(Constants):
     as_good_anew: float = constant(
         1.05,
         "times the held-out error without causes, up to which causes that are found anew do as well as none",
-        "judgement: folds differ by as much",
+        "judgement: folds differ by as much; decided with an outsider's recordings in view",
     )
     any_better: float = constant(
         0.99,
         "of the held-out error without causes, below which they help at all",
-        "judgement: two percent of its power",
+        "judgement: two percent of its power; decided with two of an outsider's recordings in view",
     )
     harm: float = constant(
         0.1,
         "of the power of noise in a block, by which a background must make motion that took no part worse to go",
-        "judgement: less is chance, and what it fits may be there",
+        "judgement: less is chance, and what it fits may be there; decided with recordings in view",
     )
     little_share: float = constant(
         0.05,
         "of what friction and rotors leave, below which causes that help nothing are no part of the story",
-        "judgement: a fault that anybody looks for leaves more",
+        "judgement: a fault that anybody looks for leaves more; decided with a clean recording in view",
     )
 
 
@@ -97,6 +97,11 @@ class IntervalRules(Constants):
     )
     reach_nats: float = constant(
         7.0, "below the best, down to which models share in intervals", "derived: a thousandth", unit="nats"
+    )
+    link_known: float = constant(
+        0.1,
+        "of a link's mass, as far as which what it carries can't be told from it",
+        "judgement: drawings and densities tell masses to some percent",
     )
     held: float = constant(0.95, "of what is believed that intervals hold", "convention: 95 % intervals")
 

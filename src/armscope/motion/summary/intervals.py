@@ -28,9 +28,9 @@ from armscope.motion.fitting.torque_delay import lag_step
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
-from armscope.motion.library.masses import EXTENDED
+from armscope.motion.library.masses import has_its_own_inertia
 from armscope.motion.summary.constants import INTERVALS
-from armscope.motion.summary.unnamed_masses import by_own_share
+from armscope.motion.summary.unnamed_masses import SHARES, by_own_share
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
 
@@ -233,18 +233,20 @@ def _otherwise_off(selected: SelectedCauses) -> dict[int, list[Hypothesis]]:
     """By column of each name of masses: the selection by every share of which its links may be off in other ways.
 
     Where the centre of one link lies elsewhere is one number among the ten of it, and how far any number of that link
-    may be off is told by the nine others: shares within reach of the evidence count alike.
+    may be off is told by the nine others: shares within reach of the evidence count alike. A load with an inertia of
+    its own is all that its link can be off by, and no evidence tells them apart: what a drawing leaves open is open.
     """
     layout, best = selected.rows.layout, selected.best
     found: dict[int, list[Hypothesis]] = {}
     for number in best.candidates:
         placed = layout.placed[number]
-        if placed.inertial is None or placed.runs or placed.variant == EXTENDED:
+        if placed.inertial is None or placed.runs:
             continue
         within = [
             replace(each, log_posterior=best.log_posterior)
-            for each in by_own_share(selected, number)
+            for share, each in zip(SHARES, by_own_share(selected, number), strict=True)
             if each.log_posterior > best.log_posterior - INTERVALS.reach_nats
+            or (has_its_own_inertia(placed) and share <= INTERVALS.link_known)
         ]
         found |= {int(column): within for column in layout.columns[number]}
     return found
