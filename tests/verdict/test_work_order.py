@@ -192,6 +192,7 @@ def test_where_it_is_another_model_of_the_arm_nothing_is_corrected(tmp_path: Pat
         write_report(replace(case.verdict, notices=notices), tmp_path)
         page = (tmp_path / "work-order.html").read_text(encoding="utf-8")
         assert ("Change nothing at the arm" in page) == ("by this model of the arm" in page) == told
+        assert ("zero_offsets.csv" in page) == (not told)
         assert ("<b>Do:</b>" in page) == ("once these steps are done" in page) == (not told)
 
 
