@@ -67,6 +67,7 @@ def test_a_tolerance_measures_again(finished):
     assert "measure" in planned(finished, "--config", change)
 
 
+@pytest.mark.long
 def test_a_deleted_figure_is_redrawn_without_refitting(finished):
     figure = finished / "results/small/paper/figures/fig06.png"
     before = figure.read_bytes()

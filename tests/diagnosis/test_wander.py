@@ -15,6 +15,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm
 from armscope.verdict.diagnosis import Diagnosis
+from tests.seeds import seeds
 
 from ..physics.scenes import arm_named
 from .planted import one_run, recorded
@@ -68,7 +69,7 @@ def test_a_slow_wander_is_background_and_no_jump() -> None:
     assert next(cause for cause in verdict.causes if cause.family == "drift").cure.startswith("Fasten the instrument")
 
 
-@pytest.mark.parametrize("link", [2, 4])
+@pytest.mark.parametrize("link", seeds(2, 4))
 def test_a_link_that_warms_up_by_itself_is_told_as_that_and_no_loose_base(link: int) -> None:
     """What was bolted down was to be fastened, and the error stayed."""
     arm, table = session()
