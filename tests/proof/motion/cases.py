@@ -59,6 +59,8 @@ def world(effects=(), answers=(), category="single", unknown_at=None, off=0.0, *
         world=changes.get("name", "motion-000"), category=category, arm="two-axis", fresh=changes.get("fresh", False),
         rows=1000, stated=changes.get("stated", False), outside=any(each["effect"] == "unknown" for each in effects),
         effects=tuple(_effect(each) for each in effects),
+        rough=tuple(replace(_effect(each), minor=True) for each in changes.get("rough", ())),
+        also_allowed=tuple(changes.get("also_allowed", ())),
         background={f"joint {j}": {"coulomb": 5.0, "viscous": 4.0, "inertia": 1.0} for j in (1, 2)},
         zeros=np.array(changes.get("zeros", ())),
         left_nm=LEFT, left_moving_nm=LEFT, test=table(TORQUE + NOISE).assign(moves1=MOVES, moves2=1),

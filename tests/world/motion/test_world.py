@@ -171,7 +171,7 @@ def test_half_of_the_seeds_stay_and_all_kinds_are_tried(size):
     one, other = catalogue(1, size), catalogue(2, size)
     assert all((a.seed == b.seed) == (not a.fresh) for a, b in zip(one, other, strict=True))
     assert 0.3 < np.mean([each.fresh for each in one]) < 0.7
-    assert {each.category for each in one} == {"clean", "single", "multiple", "outside", "confounded"}
+    assert {each.category for each in one} == {"clean", "single", "multiple", "outside", "confounded", "rough"}
     if size == "full":
         assert {asked.kind for each in one for asked in each.effects} >= set(KINDS)
 

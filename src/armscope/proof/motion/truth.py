@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
+from armscope.proof.definitions import Name
 from armscope.proof.truth import Concealed, concealed, unsealed
 from armscope.verdict.effects import UNKNOWN
 
@@ -36,6 +37,8 @@ class MotionTruth:
         world, category, arm, fresh, rows, stated: as made.
         outside: whether no library has it.
         effects: what is concealed.
+        rough: what a rough arm has everywhere; nobody is asked to name it.
+        also_allowed: names that are no wrong ones besides those of both.
         background: by joint, the friction and rotors of this arm.
         zeros: (n,) rad, of links' encoders beside their motors'; empty where links have none.
         left_nm: (n,) RMS that the truth itself leaves on the test path; left_moving_nm: where the joint moves.
@@ -50,6 +53,8 @@ class MotionTruth:
     stated: bool
     outside: bool
     effects: tuple[Concealed, ...]
+    rough: tuple[Concealed, ...]
+    also_allowed: tuple[Name, ...]
     background: dict[str, dict[str, float]]
     zeros: Array
     left_nm: Array
@@ -77,6 +82,8 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
         stated=about["stated"],
         outside=about["outside_library"],
         effects=tuple(_effect(each) for each in content["effects"]),
+        rough=tuple(replace(_effect(each), minor=True) for each in content["rough"]),
+        also_allowed=tuple((effect, location) for effect, location in content["also_allowed"]),
         background={each["location"]: {name: each[key] for name, key in BACKGROUND.items()} 
                     for each in content["background"]},
         zeros=np.array(content["zeros_rad"], dtype=float),

@@ -12,20 +12,23 @@ from typing import Literal
 import numpy as np
 
 from armscope.core.inputs import Strict
-from armscope.world.motion.kinds import LIBRARY, Kind
+from armscope.world.motion.kinds import GRIPPER, LIBRARY, Kind
 from armscope.world.motion.links import LINKED
 from armscope.world.motion.outside import OUTSIDE
+from armscope.world.motion.rough import draw_broken
 from armscope.world.motion.session import PathRule
 from armscope.world.spec import Details, EffectSpec, Recipe, seeded
 
-KINDS: dict[str, Kind] = {kind.name: kind for kind in LIBRARY + OUTSIDE + LINKED}
+KINDS: dict[str, Kind] = {kind.name: kind for kind in (*LIBRARY, GRIPPER, *OUTSIDE, *LINKED)}
 ARMS = ("two-axis", "six-axis", "seven-axis")
 RATES = (100, 125, 250)
 """Hz; divisors of the grid's rate."""
 FIXED_SEED = 20261122
 STRENGTHS = (3.0, 5.0, 10.0)
+OUT_OF_ROUGH = (2.0, 3.0, 5.0)
+"""Sizes of what stands out of a rough arm, over its noise and all that is rough together."""
 
-Category = Literal["clean", "single", "multiple", "outside", "confounded"]
+Category = Literal["clean", "single", "multiple", "outside", "confounded", "rough"]
 Size = Literal["small", "full"]
 
 
@@ -45,6 +48,8 @@ class MotionSpec(Strict):
         current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
         linked: whether every link has an encoder of its own beside its motor's.
         rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
+        rough: what the arm has everywhere, names of `armscope.world.motion.rough.BLEMISHES`; what it conceals besides
+            is so many times as large as noise and that together.
         durations: s, of the training runs and, last, of the test path.
     """
 
@@ -61,6 +66,7 @@ class MotionSpec(Strict):
     linked: bool = False
     rule: PathRule = "free"
     joint: int | None = None
+    rough: tuple[str, ...] = ()
     durations: tuple[float, ...] = (14.0, 14.0, 10.0)
 
 
@@ -108,9 +114,11 @@ def _full() -> Iterator[tuple[Category, Recipe]]:
             yield "confounded", recipe
     for _ in range(3):
         yield "clean", _linked
-    for kind in LINKED:
+    for kind in (*LINKED, GRIPPER):
         for strength in STRENGTHS:
             yield "single", _single(kind.name, strength)
+    for number in range(36):
+        yield "rough", _rough(number % 3)
 
 
 def _small() -> Iterator[tuple[Category, Recipe]]:
@@ -126,6 +134,7 @@ def _small() -> Iterator[tuple[Category, Recipe]]:
     yield "clean", _linked
     for name in ("joint_elasticity", "joint_play"):
         yield "single", _single(name, 5.0)
+    yield "rough", _rough(1)
 
 
 def _nothing(rng: np.random.Generator) -> Details:
@@ -157,6 +166,15 @@ def _several(count: int) -> Recipe:
         kinds = [str(name) for name in rng.permutation([kind.name for kind in LIBRARY])[:count]]
         effects = [{"kind": kind, "strength": float(rng.choice([4.0, 6.0, 9.0]))} for kind in kinds]
         return {"effects": effects, **_circumstances(kinds, rng)}
+
+    return recipe
+
+
+def _rough(count: int) -> Recipe:
+    def recipe(rng: np.random.Generator) -> Details:
+        kinds = [str(name) for name in rng.permutation([kind.name for kind in (*LIBRARY, GRIPPER)])[:count]]
+        effects = [{"kind": kind, "strength": float(rng.choice(OUT_OF_ROUGH))} for kind in kinds]
+        return {"rough": draw_broken(rng), "effects": effects, **_circumstances(kinds, rng)}
 
     return recipe
 

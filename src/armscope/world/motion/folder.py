@@ -10,14 +10,15 @@ largest, `rms_nm` there, `rms_rad` of a link beside its motor, `minor` where the
 `alternatives` that are as good on these paths, by evidence), `background` (the arm's own friction and rotors, which
 robot.yaml may or may not state), `noise_nm` per joint, `left_on_test_nm` per joint: what the truth itself leaves on the
 held-out path (noise, and what the drives' filter rounds off), and `left_moving_nm`, the same where the joint moves;
-`zeros_rad` of links' encoders beside their motors', none where links have none; `scoring`: category, seed,
+`zeros_rad` of links' encoders beside their motors', none where links have none; `rough` what a rough arm has
+everywhere, told like `effects`, `also_allowed` names that are no wrong ones there; `scoring`: category, seed,
 circumstances.
 """
 
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +31,12 @@ from armscope.core.files import write_table, write_yaml
 from armscope.core.types import Array
 from armscope.robot.description_file import load_description
 from armscope.world.motion.catalogue import ARMS, KINDS, MotionSpec
+from armscope.world.motion.kinds import Concealed
 from armscope.world.motion.links import read_links
 from armscope.world.motion.mechanism import stated_dynamics
 from armscope.world.motion.recording import Recorded, record, table
-from armscope.world.motion.rivals import Standing, standings
+from armscope.world.motion.rivals import Standing, small_standings, standings
+from armscope.world.motion.rough import also_allowed, blemishes, changes_alone, paces_of
 from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleEffect, Sized, VirtualArm, ordinary, place
 
@@ -47,13 +50,16 @@ STANDS = 0.01
 """rad/s below which a joint stands: ten times the speed from which MuJoCo's dry friction is fully there."""
 GAINS = (4.0, 14.0)
 """N m/A at the joint's side, of arms of this class."""
+GAIN_KNOWN = 0.03
+"""Share to which gains are stated where they are rough."""
 
 
 @dataclass(frozen=True, eq=False)
 class World:
     """A world in memory: the arm, what it conceals, what else would do, and what was recorded.
 
-    ``zeros``: (n,) rad, of links' encoders beside their motors'; None where links have none.
+    ``zeros``: (n,) rad, of links' encoders beside their motors'; None where links have none. ``rough``: what it has
+    everywhere, with what else each could be.
     """
 
     spec: MotionSpec
@@ -64,6 +70,7 @@ class World:
     recorded: Recorded
     gains: Array | None
     zeros: Array | None = None
+    rough: list[tuple[Sized, Standing]] = field(default_factory=list)
 
 
 def make(spec: MotionSpec, robots: Path) -> World:
@@ -93,30 +100,52 @@ def make(spec: MotionSpec, robots: Path) -> World:
 
 
 def _make(spec: MotionSpec, robots: Path, draw: int = 0) -> World:
-    seeds = ([spec.seed, part, *([draw] if draw else [])] for part in range(5))
-    arms, paths, places, noise, drives = map(np.random.default_rng, seeds)
+    seeds = ([spec.seed, part, *([draw] if draw else [])] for part in range(7))
+    arms, paths, places, noise, drives, rough, paces = map(np.random.default_rng, seeds)
+    arm, plain = _plain(spec, robots, arms, paths, paces_of(spec.rough, len(spec.durations), paces))
+    everywhere = blemishes(arm, spec.rough, rough)
+    beside = arm.among(arm.torques(everywhere) - plain) if everywhere else arm
+    concealed: list[Sized] = []
+    for asked in spec.effects:
+        concealed.append(place(beside, KINDS[asked.kind], asked.strength, asked.location, places, plain))
+    present = [*everywhere, *(each.concealed for each in concealed)]
+    torque = arm.torques(present) if present else plain
+    gains = drives.uniform(*GAINS, len(arm.sigma)).round(2) if spec.current else None
+    recorded = record(arm.session, torque, arm.sigma, spec.rate, noise, rough="noise" in spec.rough)
+    zeros = None
+    if spec.linked:
+        lies = arm.beside_motors([each.concealed for each in concealed])
+        links, zeros = read_links(arm.session, recorded.rows, lies, np.random.default_rng([spec.seed, 8]))
+        recorded = replace(recorded, links=links)
+    stand = standings(beside, concealed, spec.rate, plain)
+    told = [each if each.concealed.kind.lies else arm.sized(each.concealed, each.change) for each in concealed]
+    return World(spec, arm, told, stand, torque, recorded, gains, zeros, _small(arm, everywhere, spec.rate, plain))
+
+
+def _small(arm: VirtualArm, everywhere: list[Concealed], rate: int, plain: Array) -> list[tuple[Sized, Standing]]:
+    """What is rough in an arm, with its size, and what else each could be; masses' names stand for themselves."""
+    changes = changes_alone(arm, everywhere, plain)
+    sized = [arm.sized(each, change) for each, change in zip(everywhere, changes, strict=True)]
+    of_joints = [each for each in sized if each.concealed.kind.changes is None]
+    found = zip(of_joints, small_standings(arm, of_joints, rate, plain) if of_joints else [], strict=True)
+    of_links = [(each, Standing([], float("inf"))) for each in sized if each.concealed.kind.changes is not None]
+    return [*found, *of_links]
+
+
+def _plain(
+    spec: MotionSpec, robots: Path, arms: np.random.Generator, paths: np.random.Generator, paces: tuple[float, ...]
+) -> tuple[VirtualArm, Array]:
+    """An arm that conceals nothing, with its motion and noise, and its torques."""
     description = load_description(robots / f"{spec.arm}.yaml")
     dynamics = ordinary(stated_dynamics(description), arms)
     if spec.joint is not None and spec.joint >= dynamics.n_joints:
         raise ImpossibleEffect(f"{spec.arm} has no joint {spec.joint + 1} that could move by a rule")
-    session = make_session(description, spec.durations, spec.rule, spec.joint, paths)
+    session = make_session(description, spec.durations, spec.rule, spec.joint, paths, paces)
     arm = VirtualArm(description, dynamics, session, np.ones(dynamics.n_joints), spec.stated)
     plain = arm.torques([])
     train = plain[~session.test]
     sigma = np.maximum(spec.noise * np.sqrt(np.mean(train**2, axis=0)), QUIETEST * np.abs(train).max(axis=0))
-    arm = VirtualArm(description, dynamics, session, sigma, spec.stated)
-    concealed: list[Sized] = []
-    for asked in spec.effects:
-        concealed.append(place(arm, KINDS[asked.kind], asked.strength, asked.location, places, plain))
-    torque = arm.torques([each.concealed for each in concealed]) if concealed else plain
-    gains = drives.uniform(*GAINS, dynamics.n_joints).round(2) if spec.current else None
-    recorded = record(session, torque, sigma, spec.rate, noise)
-    zeros = None
-    if spec.linked:
-        beside = arm.beside_motors([each.concealed for each in concealed])
-        links, zeros = read_links(session, recorded.rows, beside, np.random.default_rng([spec.seed, 8]))
-        recorded = replace(recorded, links=links)
-    return World(spec, arm, concealed, standings(arm, concealed, spec.rate, plain), torque, recorded, gains, zeros)
+    return VirtualArm(description, dynamics, session, sigma, spec.stated), plain
 
 
 def build(spec: MotionSpec, folder: Path, robots: Path) -> Path:
@@ -166,7 +195,8 @@ def _visible_robot(source: Path, world: World) -> dict[str, Any]:
             if world.spec.stated:
                 drive[name] = float(f"{value:.6g}")
         if world.gains is not None:
-            drive |= {"gain_nm_per_a": float(world.gains[j]), "gain_uncertainty": 0.0}
+            known = GAIN_KNOWN if "gains" in world.spec.rough else 0.0
+            drive |= {"gain_nm_per_a": float(world.gains[j]), "gain_uncertainty": known}
     return content
 
 
@@ -191,6 +221,8 @@ def _truth(world: World) -> dict[str, Any]:
         "noise_nm": np.sqrt(np.mean(noise[~test] ** 2, axis=0)).round(6),
         "left_on_test_nm": np.sqrt(np.mean(left[test] ** 2, axis=0)).round(6),
         "left_moving_nm": np.sqrt(while_moving).round(6),
+        "rough": [_effect(*each) for each in world.rough],
+        "also_allowed": [list(name) for name in also_allowed(spec.rough)],
         "zeros_rad": [] if world.zeros is None else world.zeros.round(9),
         "scoring": {
             "category": spec.category,
@@ -202,6 +234,7 @@ def _truth(world: World) -> dict[str, Any]:
             "stated": spec.stated,
             "current": spec.current,
             "rule": spec.rule,
+            "rough": list(spec.rough),
             "outside_library": any(each.concealed.kind.outside for each in world.concealed),
         },
     }

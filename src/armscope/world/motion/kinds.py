@@ -30,6 +30,7 @@ from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
 from armscope.world.motion.stage import PlainArm, Stage, sign
 
+UNKNOWN = "unknown"
 Changes = Callable[[Dynamics, Location, Numbers], Dynamics]
 Pulls = Callable[[Stage, int, Numbers], Array]
 Records = Callable[[Session, Array, int, Numbers], Array]
@@ -40,7 +41,7 @@ class Kind:
     """A cause that can be concealed.
 
     Attributes:
-        effect: its name in the vocabulary, "unknown" for what no library has.
+        effect: its name in the vocabulary, `UNKNOWN` for what no library has.
         places: where it can stand on an arm.
         draw: its numbers at unit size; those in `scaled` grow in proportion.
         units: of every number.
@@ -50,7 +51,7 @@ class Kind:
         driver: what it follows.
         needs: columns of motions.csv without which nobody could see it.
         stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
-        shape: of a kind outside the library.
+        shape: which of several kinds of one effect, and of those outside the library.
         possible: (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given.
     """
 
@@ -73,12 +74,12 @@ class Kind:
     @property
     def outside(self) -> bool:
         """Whether no cause of the library is this one."""
-        return bool(self.shape)
+        return self.effect == UNKNOWN
 
     @property
     def name(self) -> str:
         """As catalogues call it."""
-        return f"unknown/{self.shape}" if self.shape else self.effect
+        return f"{self.effect}/{self.shape}" if self.shape else self.effect
 
 
 @dataclass(frozen=True)
@@ -157,6 +158,20 @@ def _carries(dynamics: Dynamics, place: Location, numbers: Numbers) -> Dynamics:
     return replace(dynamics, load=dynamics.load + numbers["mass"])
 
 
+def _holds(dynamics: Dynamics, place: Location, numbers: Numbers) -> Dynamics:
+    """A gripper, as the cube that it is: beyond the tool point, with the inertia of its size."""
+    return replace(
+        dynamics,
+        load=numbers["mass"],
+        load_centre=np.array([0.0, 0.0, numbers["reach"]]),
+        load_inertia=numbers["mass"] * numbers["side"] ** 2 / 6,
+    )
+
+
+def _some_gripper(rng: np.random.Generator, _: RobotDescription) -> dict[str, float]:
+    return {"mass": 1.0, "reach": float(rng.uniform(0.03, 0.15)), "side": float(rng.uniform(0.05, 0.25))}
+
+
 def _balanced(dynamics: Dynamics, place: Location, numbers: Numbers) -> Dynamics:
     spring = Spring(place.index, numbers["stiffness"], numbers["rest"])
     return replace(dynamics, springs=(*dynamics.springs, spring))
@@ -203,6 +218,12 @@ def _gain(session: Session, torque: Array, joint: int, numbers: Numbers) -> Arra
     found[:, joint] *= 1 + numbers["gain"]
     return found
 
+
+GRIPPER = Kind(
+    "payload_error", lambda _: ["payload"], _some_gripper, {"mass": "kg", "reach": "m", "side": "m"}, ("mass",), {},
+    changes=_holds, driver="load", shape="gripper",
+)  # fmt: skip
+"""A body that nobody stated: no point at the tool, and it resists being turned."""
 
 FIXED_FRICTION = {"coulomb": "N m", "viscous": "N m s/rad"}
 LIBRARY: tuple[Kind, ...] = (

@@ -22,6 +22,8 @@ STIFF_FRICTION = 'solimpfriction="0.999 0.999 0.001" solreffriction="0.004 1"'
 """Dry friction that is fully there from about a milliradian per second on."""
 LEAST = 1e-9
 """Friction below this many N m is left out of the model."""
+LEAST_INERTIA = 1e-12
+"""kg m^2: a point's, to an engine that allows no zero."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,8 @@ class Dynamics:
         rotor: (n,) rotor inertia at the joint's side, kg m^2.
         coulomb, viscous: (n,) N m, N m s/rad.
         gravity: (3,) in the base frame, m/s^2.
-        load, load_centre: a point mass, kg, and where it is from the tool point, in the last frame, m.
+        load, load_centre, load_inertia: a body, kg, where it is from the tool point, in the last frame, m, and its
+            inertia about any axis through its centre, kg m^2.
         springs, couplings: what else pulls.
     """
 
@@ -68,6 +71,7 @@ class Dynamics:
     gravity: Array
     load: float = 0.0
     load_centre: Array | None = None
+    load_inertia: float = 0.0
     springs: tuple[Spring, ...] = ()
     couplings: tuple[Coupling, ...] = ()
 
@@ -169,8 +173,8 @@ def mjcf_of(geometry: Geometry, dynamics: Dynamics) -> str:
         depth += 3
     if dynamics.load:
         place = geometry.tool + (0 if dynamics.load_centre is None else dynamics.load_centre)
-        point = 'diaginertia="1e-12 1e-12 1e-12"'
-        parts.append(f'<body><inertial pos="{numbers(place)}" mass="{float(dynamics.load)!r}" {point}/></body>')
+        body = f'diaginertia="{numbers(np.full(3, max(dynamics.load_inertia, LEAST_INERTIA)))}"'
+        parts.append(f'<body><inertial pos="{numbers(place)}" mass="{float(dynamics.load)!r}" {body}/></body>')
     tendons = "".join(_tendon(number, coupling) for number, coupling in enumerate(dynamics.couplings))
     return (
         '<mujoco><compiler angle="radian"/>'

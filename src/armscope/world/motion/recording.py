@@ -9,6 +9,7 @@ import pandas as pd
 from scipy.signal import butter, lfilter, sosfiltfilt
 
 from armscope.core.types import Array, Indices
+from armscope.world.motion.constants import ROUGH_MOTION as ROUGH
 from armscope.world.motion.session import GRID_HZ, Session
 
 ENCODER_STEPS = 2**19
@@ -42,7 +43,9 @@ class Recorded:
     links: Array | None = None
 
 
-def record(session: Session, torque: Array, sigma: Array, rate: int, rng: np.random.Generator) -> Recorded:
+def record(
+    session: Session, torque: Array, sigma: Array, rate: int, rng: np.random.Generator, rough: bool = False
+) -> Recorded:
     """Filter, sample and spoil torques.
 
     Args:
@@ -51,6 +54,7 @@ def record(session: Session, torque: Array, sigma: Array, rate: int, rng: np.ran
         sigma: (n,) standard deviation of the noise, N m.
         rate: Hz, a divisor of `GRID_HZ`.
         rng: of the noise.
+        rough: its noise is a rough arm's.
 
     Returns:
         The recorded rows.
@@ -62,7 +66,8 @@ def record(session: Session, torque: Array, sigma: Array, rate: int, rng: np.ran
         for run in session.runs():
             filtered[run] = sosfiltfilt(low_pass, torque[run], axis=0)
     rows = np.concatenate([np.arange(run.start, run.stop, every) for run in session.runs()])
-    noise = sigma * _noise(len(rows), torque.shape[1], rate, rng)
+    unit = _noise(len(rows), torque.shape[1], rate, rng)
+    noise = sigma * (rough_noise(unit, session.speed[rows], rng) if rough else unit)
     step = 2 * np.abs(filtered).max(axis=0) / TORQUE_STEPS
     read = np.round((filtered[rows] + noise) / step) * step
     return Recorded(rows, read, read - filtered[rows], read - torque[rows])
@@ -75,6 +80,23 @@ def _noise(count: int, joints: int, rate: int, rng: np.random.Generator) -> Arra
     lasting = lfilter([np.sqrt(1 - kept**2)], [1.0, -kept], driving, axis=0)
     found: Array = (white + lasting) / np.sqrt(2)
     return found
+
+
+def rough_noise(noise: Array, speed: Array, rng: np.random.Generator) -> Array:
+    """Noise with Student's tails that is larger where a joint moves, as strong as before in all.
+
+    Args:
+        noise: (N, n) Gaussian, of unit variance.
+        speed: (N, n) rad/s of the joints.
+        rng: of the tails.
+
+    Returns:
+        (N, n) of unit variance.
+    """
+    tails = np.sqrt(ROUGH.noise_freedom / rng.chisquare(ROUGH.noise_freedom, noise.shape))
+    usual = np.sqrt(np.mean(speed**2, axis=0))
+    spoiled = noise * tails * (1 + ROUGH.noise_moving * np.abs(speed) / usual)
+    return np.asarray(spoiled / np.sqrt(np.mean(spoiled**2, axis=0)))
 
 
 def independent_share(rate: int) -> float:

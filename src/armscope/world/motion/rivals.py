@@ -29,6 +29,8 @@ MOST_SAMPLES = 600
 SMALL = 1e-4
 STRIBECK_SPEEDS = (0.05, 0.15, 0.4)
 CURVE_DEGREE = 5
+SEEN_NATS = 20.0
+"""From which there is something that another name could be as good for."""
 
 
 @dataclass(frozen=True)
@@ -61,22 +63,57 @@ def standings(arm: VirtualArm, concealed: list[Sized], rate: int, plain: Array) 
     Returns:
         One for each cause.
     """
-    train = np.flatnonzero(~arm.session.test)
-    rows = train[:: max(len(train) // MOST_SAMPLES, 1)]
-    worth = len(train) / GRID_HZ * rate * independent_share(rate) / len(rows)
+    rows, worth = _sample(arm, rate)
     others = list(rivals(arm, plain, rows))
     weights = np.tile(np.sqrt(worth) / arm.sigma, len(rows))
     free = _background(arm, rows)
     found = []
     for each in concealed:
         if each.concealed.kind.lies is not None:
-            of_link = _of_link(arm, each, rows, len(train) / GRID_HZ * rate / len(rows))
+            of_link = _of_link(arm, each, rows, worth / independent_share(rate))
             found.append(Standing(of_link, float("inf")))
             continue
         rest = [other for other in concealed if other is not each and other.concealed.kind.lies is None]
         equal = _equal(each, rest, others, rows, weights, free)
         found.append(Standing(equal, _beside(each, rest, others, rows, weights, free)))
     return found
+
+
+def small_standings(arm: VirtualArm, small: list[Sized], rate: int, plain: Array) -> list[Standing]:
+    """Of what a rough arm has in its joints, each by itself: what else at that joint could be meant.
+
+    Args:
+        arm: the arm.
+        small: with their changes of torque.
+        rate: Hz at which the torques are recorded.
+        plain: (T, n) torques with nothing concealed.
+
+    Returns:
+        One for each; nothing is as good as what nobody could see.
+    """
+    rows, worth = _sample(arm, rate)
+    slope = -arm.session.differentiated(plain)[rows]
+    stage = stage_of(Geometry(arm.description), arm.dynamics, arm.session.taken(rows))
+    found = []
+    for each in small:
+        j = each.concealed.joint
+        weights = np.full(len(rows), np.sqrt(worth) / arm.sigma[j])
+        alone = replace(each, change=each.change[:, [j]])
+        seen = 0.5 * float(np.sum((weights * alone.change[rows, 0]) ** 2))
+        place = each.concealed.location
+        others = [
+            Rival(name, place, columns) for name, columns in _joint_patterns(stage, j, plain[rows, j], slope[:, j])
+        ]
+        equal = _equal(alone, [], others, rows, weights, arm.background(j)[rows]) if seen > SEEN_NATS else []
+        found.append(Standing(equal, seen))
+    return found
+
+
+def _sample(arm: VirtualArm, rate: int) -> tuple[Indices, float]:
+    """Samples of the training runs, and how many independent readings each is worth."""
+    train = np.flatnonzero(~arm.session.test)
+    rows = train[:: max(len(train) // MOST_SAMPLES, 1)]
+    return rows, len(train) / GRID_HZ * rate * independent_share(rate) / len(rows)
 
 
 def _beside(one: Sized, rest: list[Sized], others: list[Rival], rows: Indices, weights: Array, free: Array) -> float:
@@ -175,6 +212,7 @@ def _joint_patterns(stage: Stage, j: int, torque: Array, slope: Array) -> Iterat
     speed, angle, side = session.speed[:, j], session.angle[:, j], sign(session, j)
     yield "coulomb_friction", side[:, None]
     yield "viscous_friction", speed[:, None]
+    yield "viscous_curve", np.column_stack([speed * np.abs(speed), speed**3])
     yield "asymmetric_friction", np.abs(speed)[:, None]
     yield "load_friction", (np.abs(stage.load[:, j]) * side)[:, None]
     for slow in STRIBECK_SPEEDS:

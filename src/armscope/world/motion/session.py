@@ -94,6 +94,7 @@ def make_session(
     rule: PathRule,
     joint: int | None,
     rng: np.random.Generator,
+    paces: tuple[float, ...] | None = None,
 ) -> Session:
     """Random Fourier motions, each another one; the last is the test.
 
@@ -103,16 +104,18 @@ def make_session(
         rule: ``free``; or one joint moves one way only, or hardly at all, in the training runs.
         joint: (0-based) that the rule is about.
         rng: of the paths.
+        paces: how fast each run goes, over what the limits allow; None: all as fast as that.
 
     Returns:
         The session.
     """
     limits = limits_of(description)
     parts = []
-    for number, duration in enumerate(durations):
+    for number, (duration, pace) in enumerate(zip(durations, paces or (1.0,) * len(durations), strict=True)):
         test = number == len(durations) - 1
         time = np.arange(round(duration * GRID_HZ)) / GRID_HZ
-        motion = random_path(limits, HARMONICS, duration, rng).at(time)
+        path = random_path(limits, HARMONICS, duration, rng).at(pace * time)
+        motion = tuple(values * pace**order for order, values in enumerate(path))
         if joint is not None and not test:
             motion = _ruled(motion, rule, joint, limits, time)
         parts.append((time, np.full(len(time), "test" if test else f"run{number + 1}"), motion, test))
@@ -125,7 +128,7 @@ def make_session(
 
 
 def _ruled(
-    motion: tuple[Array, Array, Array], rule: PathRule, joint: int, limits: Limits, time: Array
+    motion: tuple[Array, ...], rule: PathRule, joint: int, limits: Limits, time: Array
 ) -> tuple[Array, Array, Array]:
     angle, speed, acceleration = (np.array(each) for each in motion)
     low, high = limits.angle[joint]

@@ -84,6 +84,17 @@ class VirtualArm(PlainArm):
                 left[:, joint] -= columns @ np.linalg.lstsq(columns, left[:, joint], rcond=None)[0]
         return left
 
+    def among(self, change: Array) -> VirtualArm:
+        """The arm where (T, n) torques that nobody is to tell from noise are taken for noise."""
+        beside = np.mean(self.beyond_background(change) ** 2, axis=0)
+        return replace(self, sigma=np.sqrt(self.sigma**2 + beside))
+
+    def sized(self, concealed: Concealed, change: Array) -> Sized:
+        """How large (T, n) torques of a concealed cause are beside this arm's noise."""
+        each = np.sqrt(np.mean(self.beyond_background(change) ** 2, axis=0))
+        most = int(np.argmax(each / self.sigma))
+        return Sized(concealed, float((each / self.sigma)[most]), float(each[most]), change)
+
 
 @dataclass(frozen=True, eq=False)
 class Sized:
@@ -171,7 +182,4 @@ def _measure(arm: VirtualArm, concealed: Concealed, plain: Array) -> Sized | Non
         change = arm.torques([concealed]) - plain
     except ValueError:
         return None
-    left = arm.beyond_background(change)
-    each = np.sqrt(np.mean(left**2, axis=0))
-    most = int(np.argmax(each / arm.sigma))
-    return Sized(concealed, float((each / arm.sigma)[most]), float(each[most]), change)
+    return arm.sized(concealed, change)
