@@ -72,7 +72,7 @@ def test_a_partly_impossible_path_keeps_its_rows_and_gives_no_job(tmp_path):
     table_of(wanted, id=[f"p{n}" for n in range(10)]).to_csv(tmp_path / "path.csv", index=False)
     done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv")
     assert done.exit_code == 3
-    assert "refused: 1 rows (4): beyond reach" in done.output
+    assert "refused: row 5: beyond reach" in done.output
     table = pd.read_csv(tmp_path / "a.csv")
     assert len(table) == 10
     assert table.loc[3, ["id", "status"]].tolist() == ["p3", "refused"]

@@ -229,7 +229,8 @@ def _tell(result: Compensated) -> None:
     for cause in told[:MOST_CAUSES]:
         rows = refused[causes == cause]
         reason = result.reasons[rows[0]] if len(set(result.reasons[rows])) == 1 else cause
-        print(f"refused: {len(rows)} rows ({_ranges(rows + 1)}): {reason}")
+        which = f"row {rows[0] + 2}" if len(rows) == 1 else f"{len(rows)} rows ({_ranges(rows + 2)})"
+        print(f"refused: {which}: {reason}")
     if len(told) > MOST_CAUSES:
         print(f"refused for {len(told) - MOST_CAUSES} more reasons: the table says which")
 
@@ -240,7 +241,7 @@ def _or_less(value: float) -> str:
 
 
 def _ranges(rows: NDArray[np.intp]) -> str:
-    """Row numbers as "1-5, 8, ..."."""
+    """Rows of a file, whose heading is the first, as "2-6, 9, ..."."""
     import numpy as np
 
     pieces = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)

@@ -58,7 +58,7 @@ def _with_bad_shots(verdict: Verdict) -> str:
     worst = max(verdict.suspects, key=lambda row: row.residual_mm, default=None)
     if worst is None:
         return f"{error}."
-    row = f"row {worst.id}" + (f" of run {worst.run}" if worst.run else "")
+    row = f"the row with id {worst.id}" + (f" of run {worst.run}" if worst.run else "")
     return f"{error}: {row} lies {millimetres(worst.residual_mm)} from where the model puts it."
 
 
