@@ -47,8 +47,9 @@ def test_every_joint_and_link_has_its_share_with_a_name_that_is_true(world):
     names = {(each.concealed.kind.effect, each.concealed.location) for each, _ in world.rough}
     for j in (1, 2):
         assert {("link_mass", f"link {j}"), ("stribeck_friction", f"joint {j}"), ("unknown", f"joint {j}")} <= names
-    assert also_allowed(ALL) == (("payload_error", "payload"),)
-    assert also_allowed(("rest",)) == ()
+    assert also_allowed(("masses", "lines"), 2) == [("payload_error", "payload")]
+    assert also_allowed(("rest",), 2) == [("coulomb_friction", "joint 1"), ("coulomb_friction", "joint 2")]
+    assert also_allowed(("late",), 2) == []
 
 
 @pytest.mark.parametrize("name", [name for name in ALL if name not in ("noise", "pace")])

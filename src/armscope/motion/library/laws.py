@@ -21,6 +21,11 @@ from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
 
+POWERS = (0.5, 2.0, 3.0)
+"""Of the speed: grease that thins as it is sheared bends friction down from rest on, churned oil bends it up."""
+STRAIGHT, BENT = ("dry", "linear"), ("root", "square", "cube")
+"""Names of what is proportional to the sign of the speed, to the speed, and to its `POWERS`."""
+
 
 @dataclass(frozen=True)
 class Law:
@@ -62,16 +67,19 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
-    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
+def _powers(m: Moment, joints: tuple[int, ...], width: float, dry: float, viscous: float, *nearest: float) -> Array:
+    """Powers of the speed, less the viscous and dry friction that are nearest to each.
 
-    So dry and viscous friction that are fitted stay what a fit without the curve would say.
+    So dry and viscous friction that are fitted stay what a fit without the curve would say. Where either is stated
+    (``dry``, ``viscous``) it is one of the powers: a curve is another one than the stated straight line in all.
     """
     speed, turned = _speed(m, joints), _side(m, joints, width)
-    of_square, of_cube = nearest[:2], nearest[2:]
-    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
-    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
-    return np.column_stack([square, cube])
+    straight = [column for column, stated in ((turned, dry), (speed, viscous)) if stated]
+    bent = [
+        np.sign(speed) * np.abs(speed) ** power - of_speed * speed - of_side * turned
+        for power, of_speed, of_side in zip(POWERS, nearest[::2], nearest[1::2], strict=True)
+    ]
+    return np.column_stack([*straight, *bent])
 
 
 def warmth(m: Moment, joint: int) -> Array:

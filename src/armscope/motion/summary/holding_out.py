@@ -43,10 +43,9 @@ class Fold:
 
 
 def folds(selected: SelectedCauses) -> list[Fold]:
-    """Runs in turn; of a single run, one end of it once."""
-    count = len(selected.blocks)
+    """Runs in turn that others can foretell; of a single run, one end of it once."""
     single = len(set(selected.rows.run.tolist())) == 1
-    parts = [_end(selected)] if single else [(k,) for k in range(count)]
+    parts = [_end(selected)] if single else [(int(k),) for k in selected.foretold]
     made = []
     for held in parts:
         problem = _of_all_runs(selected, _of_the_rest(selected, held), held)
@@ -60,8 +59,11 @@ def folds(selected: SelectedCauses) -> list[Fold]:
 
 def held_out_in_words(parts: Sequence[Fold]) -> str:
     """Which motion `folds` holds out."""
-    if len(parts) > 1:
-        return "each run in turn"
+    runs = list(dict.fromkeys(parts[0].rows.run.tolist()))
+    if len(runs) > 1:
+        held = {str(part.rows.run[part.which[0]]) for part in parts}
+        beyond = ", ".join(run for run in runs if run not in held)
+        return "each run in turn" + (f", but for {beyond}, which goes beyond what others show" if beyond else "")
     return f"the {'first' if parts[0].which[0] == 0 else 'last'} two fifths of the motion"
 
 

@@ -222,7 +222,7 @@ def _truth(world: World) -> dict[str, Any]:
         "left_on_test_nm": np.sqrt(np.mean(left[test] ** 2, axis=0)).round(6),
         "left_moving_nm": np.sqrt(while_moving).round(6),
         "rough": [_effect(*each) for each in world.rough],
-        "also_allowed": [list(name) for name in also_allowed(spec.rough)],
+        "also_allowed": [list(name) for name in also_allowed(spec.rough, dynamics.n_joints)],
         "zeros_rad": [] if world.zeros is None else world.zeros.round(9),
         "scoring": {
             "category": spec.category,

@@ -30,8 +30,13 @@ LEAST_SHARE = -0.7
 """A body keeps some of its inertia."""
 DRIFTS = 3
 """Waves that a wandering zero is made of."""
-BESIDE_MASSES = (("payload_error", "payload"),)
-"""Names that are as good where masses are off: what is too much at the last link may as well be its load."""
+AS_GOOD = {
+    "rest": ("coulomb_friction",), "bend": ("coulomb_friction", "viscous_friction"), "warm": ("viscous_friction",),
+}  # fmt: skip
+"""Names that are as good at each joint as a blemish's own: stated friction is off where it has another shape.
+
+Where masses are off, what is too much at the last link may as well be its load.
+"""
 
 
 def _bent(stage: Stage, joint: int, numbers: Numbers) -> Array:
@@ -240,9 +245,11 @@ def _alone(arm: VirtualArm, each: Concealed, plain: Array, stage: Stage) -> Arra
     return found
 
 
-def also_allowed(broken: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
-    """Names that are as good as a blemish's own."""
-    return BESIDE_MASSES if "masses" in broken else ()
+def also_allowed(broken: tuple[str, ...], n_joints: int) -> list[tuple[str, str]]:
+    """Names that are as good as a blemish's own, of an arm with so many joints."""
+    straight = {effect for name in broken for effect in AS_GOOD.get(name, ())}
+    load = [("payload_error", "payload")] if "masses" in broken else []
+    return load + [(effect, f"joint {j + 1}") for effect in sorted(straight) for j in range(n_joints)]
 
 
 def paces_of(broken: tuple[str, ...], runs: int, rng: np.random.Generator) -> tuple[float, ...]:
