@@ -57,12 +57,20 @@ def path(rng: np.random.Generator, joints: int, seconds: float, rate: float) -> 
 
 
 def table(
-    arm: MovingArm, seed: int, plant: Plant | None = None, runs: int = 2, noise: float = 0.02, seconds: float = 15.0
+    arm: MovingArm,
+    seed: int,
+    plant: Plant | None = None,
+    runs: int = 2,
+    noise: float = 0.02,
+    seconds: float = 15.0,
+    paces: tuple[float, ...] = (),
 ) -> pd.DataFrame:
-    """motions.csv of an arm with ordinary friction and rotors, and what is planted."""
+    """motions.csv of an arm with ordinary friction and rotors, and what is planted; each run as fast as told."""
     rng, pieces = np.random.default_rng(seed), []
     for run in range(runs):
-        time, q, dq, ddq = path(rng, arm.n_motors, seconds, 200.0)
+        pace = paces[run] if paces else 1.0
+        time, q, dq, ddq = path(rng, arm.n_motors, seconds * pace, 200.0 / pace)
+        time, dq, ddq = time / pace, dq * pace, ddq * pace**2
         data = arm.model.createData()
         rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
         n = arm.n_motors
