@@ -56,7 +56,7 @@ def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
 def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
     """Recordings that differ in the forces of their pauses alone, in which no model foretells them."""
     twice = [as_motions(from_point_to_point(seed, held), "motions.csv", 3) for held in (0.9, -0.9)]
-    apart = np.sqrt(np.mean((twice[0].effort - tables[1].effort) ** 2, axis=0))
+    apart = np.sqrt(np.mean((twice[0].effort - twice[1].effort) ** 2, axis=0))
     assert np.all(apart > 0.3 * COULOMB)
     noise = 0.01
     for motions in twice:
