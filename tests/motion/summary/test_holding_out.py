@@ -88,6 +88,6 @@ def test_a_run_that_is_faster_than_all_others_is_not_held_out_and_that_is_said()
     )
     assert alike.verdict.held_out.what == "each run in turn"
     assert list(alike.verdict.held_out.by_run) == ["path 1", "path 2"]
-    assert unlike.verdict.held_out.what == "each run in turn, but for path 2, which goes beyond what others show"
+    assert unlike.verdict.held_out.what == "each run in turn (path 2 goes beyond what others show)"
     assert list(unlike.verdict.held_out.by_run) == ["path 1"]
     assert not unlike.verdict.mismatch

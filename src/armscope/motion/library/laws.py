@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
@@ -21,10 +22,8 @@ from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
 
-POWERS = (0.5, 2.0, 3.0)
-"""Of the speed: grease that thins as it is sheared bends friction down from rest on, churned oil bends it up."""
 STRAIGHT, BENT = ("dry", "linear"), ("root", "square", "cube")
-"""Names of what is proportional to the sign of the speed, to the speed, and to its `POWERS`."""
+"""Names of what is proportional to the sign of the speed, to the speed, and to powers of it."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +76,7 @@ def _powers(m: Moment, joints: tuple[int, ...], width: float, dry: float, viscou
     straight = [column for column, stated in ((turned, dry), (speed, viscous)) if stated]
     bent = [
         np.sign(speed) * np.abs(speed) ** power - of_speed * speed - of_side * turned
-        for power, of_speed, of_side in zip(POWERS, nearest[::2], nearest[1::2], strict=True)
+        for power, of_speed, of_side in zip(LIBRARY.powers, nearest[::2], nearest[1::2], strict=True)
     ]
     return np.column_stack([*straight, *bent])
 

@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.laws import BENT, POWERS, STRAIGHT, Law
+from armscope.motion.library.laws import BENT, STRAIGHT, Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
@@ -121,7 +121,7 @@ class _Joint:
 
 
 def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ...]:
-    """Viscous and dry friction that are nearest to each of `POWERS` at some speeds, as `powers of speed` takes them.
+    """Viscous and dry friction that are nearest to each power at some speeds, as `powers of speed` takes them.
 
     Args:
         speeds: (N,) rad/s.
@@ -132,7 +132,7 @@ def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ..
         Viscous and dry friction of each in turn.
     """
     ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)]) * np.array(fitted)
-    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** POWERS, rcond=None)[0]
+    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** LIBRARY.powers, rcond=None)[0]
     return tuple(map(float, found.T.ravel()))
 
 
@@ -152,7 +152,7 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
     straight = (
         (name, each) for name, each, told in zip(STRAIGHT, (torque, f"{torque} s/{unit}"), stated, strict=True) if told
     )
-    bent = (f"{torque} s^{power:g}/{unit}^{power:g}" for power in POWERS)
+    bent = (f"{torque} s^{power:g}/{unit}^{power:g}" for power in LIBRARY.powers)
     powers = (*straight, *zip(BENT, bent, strict=True))
     yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *stated, *at.nearest)
 

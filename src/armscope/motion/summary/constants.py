@@ -36,11 +36,6 @@ class NamingRules(Constants):
         "shares, beyond those of all links, by which inertial parameters of links with a name may be off without it",
         "judgement: a link that is another one than stated",
     )
-    straight: float = constant(
-        0.75,
-        "of the power of a curve of friction that one straight line says, beyond which it is that line",
-        "judgement: who reads of a curve looks for one",
-    )
     beyond_gains: float = constant(
         2.5,
         "times its stated uncertainty that a drive's gain must be off to have a name",

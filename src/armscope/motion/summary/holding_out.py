@@ -62,8 +62,11 @@ def held_out_in_words(parts: Sequence[Fold]) -> str:
     runs = list(dict.fromkeys(parts[0].rows.run.tolist()))
     if len(runs) > 1:
         held = {str(part.rows.run[part.which[0]]) for part in parts}
-        beyond = ", ".join(run for run in runs if run not in held)
-        return "each run in turn" + (f", but for {beyond}, which goes beyond what others show" if beyond else "")
+        beyond = [run for run in runs if run not in held]
+        goes = (
+            f" ({', '.join(beyond)} {'goes' if len(beyond) == 1 else 'go'} beyond what others show)" if beyond else ""
+        )
+        return f"each run in turn{goes}"
     return f"the {'first' if parts[0].which[0] == 0 else 'last'} two fifths of the motion"
 
 

@@ -25,7 +25,7 @@ from armscope.motion.fitting.space import build_space, without_backgrounds
 from armscope.motion.library import catalogue
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
-from armscope.motion.library.laws import STRAIGHT, Law, is_of_a_gain
+from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.motion.library.layout import OWN
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
@@ -65,7 +65,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
 def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
     """Numbers of the names that can't stand."""
     own = {*_impossible(selected), *_between_samples(selected, rate)}
-    return frozenset({*own, *_cancelling(selected), *_straight(selected), *_of_one_path(selected)})
+    return frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
@@ -194,20 +194,6 @@ def _cancelling(selected: SelectedCauses) -> Iterator[int]:
         least = min(np.linalg.norm(first), np.linalg.norm(second))
         if np.linalg.norm(first + second) < CONSISTENCY.cancelled * least:
             yield one if np.linalg.norm(first) < np.linalg.norm(second) else other
-
-
-def _straight(selected: SelectedCauses) -> Iterator[int]:
-    """Curves of friction over speed that one straight line says: more dry or more viscous friction than stated."""
-    rows = selected.rows
-    for number in selected.best.candidates:
-        placed = rows.layout.placed[number]
-        if placed.cause is not catalogue.VISCOUS_CURVE or placed.parameters[0][0] not in STRAIGHT:
-            continue
-        moving = ~rows.still[:, placed.joints[0]]
-        speed, torque = rows.dq[moving, placed.joints[0]], _torque(selected, number)[moving]
-        said = max(float(line @ torque) ** 2 / float(line @ line) for line in (np.sign(speed), speed))
-        if said > NAMING.straight * float(torque @ torque):
-            yield number
 
 
 def _torque(selected: SelectedCauses, number: int) -> Array:
