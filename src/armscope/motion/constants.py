@@ -106,9 +106,9 @@ class LibraryRules(Constants):
     )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
     powers: tuple[float, ...] = constant(
-        (0.5, 2.0, 3.0),
+        (0.5, 2.0),
         "of speed in a curve of friction",
-        "judgement: sheared grease thins, a root; churned oil is up to a cube",
+        "judgement: sheared grease thins, a root; churned oil is a square",
     )
 
 

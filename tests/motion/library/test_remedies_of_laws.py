@@ -38,15 +38,11 @@ def near_rest(cure: str) -> Torque:
 
 def curve(cure: str) -> Torque:
     assert "× speed × |speed| " in cure
-    root, square, cube, *straight = told(cure.replace("speed³", "cube"), "friction ")
+    root, square, *straight = told(cure, "friction ")
     viscous, dry = [*straight, 0.0, 0.0][:2]
     return at_joint(
         lambda q, v, a, T: (
-            root * np.sqrt(np.abs(v)) * np.sign(v)
-            + square * v * np.abs(v)
-            + cube * v**3
-            + viscous * v
-            + dry * np.sign(v)
+            root * np.sqrt(np.abs(v)) * np.sign(v) + square * v * np.abs(v) + viscous * v + dry * np.sign(v)
         )
     )
 

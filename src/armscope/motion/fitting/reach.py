@@ -16,9 +16,9 @@ class ReachRules(Constants):
     """When others can foretell a run's motion."""
 
     shown: float = constant(
-        0.5,
+        0.25,
         "of a run's rows that others must show at every joint, to foretell it",
-        "judgement: of what is mostly beyond all others nothing is learned by foretelling it",
+        "judgement: of what lies beyond all others nothing is learned; random waves of some seconds share a third",
     )
     wider: float = constant(0.05, "of what others show, by which it may be exceeded", "judgement: curves go on so far")
 

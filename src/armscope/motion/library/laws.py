@@ -22,7 +22,7 @@ from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
 
-STRAIGHT, BENT = ("dry", "linear"), ("root", "square", "cube")
+STRAIGHT, BENT = ("dry", "linear"), ("root", "square")
 """Names of what is proportional to the sign of the speed, to the speed, and to powers of it."""
 
 

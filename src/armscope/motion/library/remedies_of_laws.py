@@ -34,7 +34,7 @@ def curve_of_speed(fitted: Fitted) -> str:
     dry, viscous = (fitted.numbers[name].value if name in fitted.numbers else 0.0 for name in STRAIGHT)
     nearest = fitted.of_law[3:]
     viscous, dry = viscous - float(np.dot(bent, nearest[::2])), dry - float(np.dot(bent, nearest[1::2]))
-    shapes = ("√|speed| × sign of the speed", "speed × |speed|", "speed³", "speed", "sign of the speed")
+    shapes = ("√|speed| × sign of the speed", "speed × |speed|", "speed", "sign of the speed")
     told = " ".join(
         f"{_plain(size)} × {what}" for size, what in zip((*bent, viscous, dry), shapes, strict=True) if size
     )
