@@ -105,11 +105,6 @@ class LibraryRules(Constants):
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
-    powers: tuple[float, ...] = constant(
-        (0.5, 2.0),
-        "of speed in a curve of friction",
-        "judgement: sheared grease thins, a root; churned oil is a square",
-    )
 
 
 @dataclass(frozen=True)

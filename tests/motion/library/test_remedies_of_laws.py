@@ -38,13 +38,8 @@ def near_rest(cure: str) -> Torque:
 
 def curve(cure: str) -> Torque:
     assert "× speed × |speed| " in cure
-    root, square, *straight = told(cure, "friction ")
-    viscous, dry = [*straight, 0.0, 0.0][:2]
-    return at_joint(
-        lambda q, v, a, T: (
-            root * np.sqrt(np.abs(v)) * np.sign(v) + square * v * np.abs(v) + viscous * v + dry * np.sign(v)
-        )
-    )
+    square, cube = told(cure.replace("speed³", "cube"), "friction ")[:2]
+    return at_joint(lambda q, v, a, T: square * v * np.abs(v) + cube * v**3)
 
 
 def with_warmth(cure: str) -> Torque:
@@ -146,9 +141,6 @@ CASES = {
         "stribeck_friction", AT, at_joint(lambda q, v, a, T: 3 * np.exp(-((v / 0.15) ** 2)) * np.sign(v)), near_rest
     ),
     "curve of speed": Case("viscous_curve", AT, at_joint(lambda q, v, a, T: 2.0 * v * np.abs(v)), curve),
-    "grease that thins": Case(
-        "viscous_curve", AT, at_joint(lambda q, v, a, T: 4.0 * np.abs(v) ** 0.6 * np.sign(v)), curve
-    ),
     "warm": Case("thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * v), with_warmth, True),
     "warm and dry": Case(
         "thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * np.sign(v)), with_warmth, True

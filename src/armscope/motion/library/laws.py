@@ -12,7 +12,6 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.constants import LIBRARY
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
@@ -21,9 +20,6 @@ from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
-
-STRAIGHT, BENT = ("dry", "linear"), ("root", "square")
-"""Names of what is proportional to the sign of the speed, to the speed, and to powers of it."""
 
 
 @dataclass(frozen=True)
@@ -66,19 +62,16 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def _powers(m: Moment, joints: tuple[int, ...], width: float, dry: float, viscous: float, *nearest: float) -> Array:
-    """Powers of the speed, less the viscous and dry friction that are nearest to each.
+def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
+    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
 
-    So dry and viscous friction that are fitted stay what a fit without the curve would say. Where either is stated
-    (``dry``, ``viscous``) it is one of the powers: a curve is another one than the stated straight line in all.
+    So dry and viscous friction that are fitted stay what a fit without the curve would say.
     """
     speed, turned = _speed(m, joints), _side(m, joints, width)
-    straight = [column for column, stated in ((turned, dry), (speed, viscous)) if stated]
-    bent = [
-        np.sign(speed) * np.abs(speed) ** power - of_speed * speed - of_side * turned
-        for power, of_speed, of_side in zip(LIBRARY.powers, nearest[::2], nearest[1::2], strict=True)
-    ]
-    return np.column_stack([*straight, *bent])
+    of_square, of_cube = nearest[:2], nearest[2:]
+    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
+    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
+    return np.column_stack([square, cube])
 
 
 def warmth(m: Moment, joint: int) -> Array:

@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.laws import BENT, STRAIGHT, Law
+from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
@@ -121,7 +121,7 @@ class _Joint:
 
 
 def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ...]:
-    """Viscous and dry friction that are nearest to each power at some speeds, as `powers of speed` takes them.
+    """Viscous and dry friction that are nearest to square and cube at some speeds, as `powers of speed` takes them.
 
     Args:
         speeds: (N,) rad/s.
@@ -129,10 +129,10 @@ def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ..
             would be told as a curve and two departures from what is stated.
 
     Returns:
-        Viscous and dry friction of each in turn.
+        Viscous and dry friction of the square, then of the cube.
     """
     ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)]) * np.array(fitted)
-    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** LIBRARY.powers, rcond=None)[0]
+    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
     return tuple(map(float, found.T.ravel()))
 
 
@@ -148,13 +148,8 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
         more["expected"] = (1.0, LIBRARY.between_speeds)
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
-    stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
-    straight = (
-        (name, each) for name, each, told in zip(STRAIGHT, (torque, f"{torque} s/{unit}"), stated, strict=True) if told
-    )
-    bent = (f"{torque} s^{power:g}/{unit}^{power:g}" for power in LIBRARY.powers)
-    powers = (*straight, *zip(BENT, bent, strict=True))
-    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *stated, *at.nearest)
+    powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
+    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *at.nearest)
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:

@@ -9,10 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from armscope.motion.library.clauses import amount
-from armscope.motion.library.laws import BENT, STRAIGHT
 from armscope.motion.library.linkage import length
 from armscope.motion.library.remedies import Fitted
 from armscope.verdict.effects import INTERVAL, Parameter
@@ -29,16 +26,13 @@ def near_rest(fitted: Fitted) -> str:
 
 
 def curve_of_speed(fitted: Fitted) -> str:
-    """Powers of the speed, less the ordinary friction that is nearest to each: the joint's line has that."""
-    bent = [fitted.numbers[name].value for name in BENT]
-    dry, viscous = (fitted.numbers[name].value if name in fitted.numbers else 0.0 for name in STRAIGHT)
-    nearest = fitted.of_law[3:]
-    viscous, dry = viscous - float(np.dot(bent, nearest[::2])), dry - float(np.dot(bent, nearest[1::2]))
-    shapes = ("√|speed| × sign of the speed", "speed × |speed|", "speed", "sign of the speed")
-    told = " ".join(
-        f"{_plain(size)} × {what}" for size, what in zip((*bent, viscous, dry), shapes, strict=True) if size
-    )
-    unit = fitted.numbers["root"].unit.partition(" s")[0]
+    """Square and cube of the speed, less the ordinary friction that is nearest to both: the joint's line has that."""
+    square, cube = fitted.numbers["square"], fitted.numbers["cube"]
+    nearest = fitted.of_law[1:]
+    viscous, dry = (-(square.value * a + cube.value * b) for a, b in zip(nearest[:2], nearest[2:], strict=True))
+    terms = ((square.value, "speed × |speed|"), (cube.value, "speed³"), (viscous, "speed"), (dry, "sign of the speed"))
+    told = " ".join(f"{_plain(size)} × {what}" for size, what in terms if size)
+    unit = square.unit.partition(" s")[0]
     return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {unit}, SI."
 
 

@@ -103,7 +103,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
-        nothing = _no_load(selected, number) or _pulls_and_pushes(selected, number) or _drives(selected, number)
+        nothing = _no_load(selected, number) or _pulls_and_pushes(selected, number)
         if below or nothing or (is_anywhere(placed) and _no_body(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
@@ -167,20 +167,6 @@ def _pulls_and_pushes(selected: SelectedCauses, number: int) -> bool:
     phase, ratio, middle = placed.columns.numbers
     angle = selected.rows.q[:, placed.joints[0]] + phase
     return not pushes_one_way(selected.coefficients[layout.columns[number]], angle, ratio, middle + phase)
-
-
-def _drives(selected: SelectedCauses, number: int) -> bool:
-    """Whether a curve makes friction of what drives a joint, at the slower half of its speeds."""
-    rows, placed = selected.rows, selected.rows.layout.placed[number]
-    if placed.cause is not catalogue.VISCOUS_CURVE:
-        return False
-    j = placed.joints[0]
-    own = OWN * j + np.array([1, 2])
-    dry, viscous = selected.coefficients[own] + np.nan_to_num(rows.layout.arm.stated_background[j, 1:3])
-    speed = np.abs(rows.dq[:, j])
-    slow = ~rows.still[:, j] & (speed <= np.median(speed[~rows.still[:, j]]))
-    resists = _torque(selected, number) * np.sign(rows.dq[:, j]) + dry + viscous * speed
-    return bool(np.mean(resists[slow]) < 0)
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:
