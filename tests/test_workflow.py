@@ -98,11 +98,6 @@ def test_a_wrong_override_is_one_clear_error(finished, override, expected):
     assert "Traceback" not in printed
 
 
-def test_a_real_arm_that_is_not_there_is_skipped_with_a_reason(finished):
-    printed = snakemake(finished, "results/small/paper/table2.csv", "--config", "recordings_dir=nowhere")
-    assert "is not there" in printed
-
-
 def after(rules, follows):
     """All rules that need one of some rules, by whatever way."""
     found, waiting = set(), [later for rule in rules for later in follows.get(rule, ())]
@@ -115,8 +110,12 @@ def after(rules, follows):
 
 @pytest.fixture(scope="module")
 def drawn(finished):
-    """The rules and which follows which."""
+    """The rules and which follows which, of a workflow that has no recordings of real arms."""
     return snakemake(finished, "all", "--rulegraph", "dot", "--config", "recordings_dir=nowhere")
+
+
+def test_a_real_arm_that_is_not_there_is_skipped_with_a_reason(drawn):
+    assert "is not there" in drawn
 
 
 @pytest.mark.parametrize("profile", ["slurm", "slurm-generic"])
@@ -152,7 +151,11 @@ def test_no_job_of_a_cluster_is_shorter_than_its_start(profile):
     assert set(together.index[together < jobs_measured.START_S]) <= grows
 
 
-@pytest.mark.parametrize(("table", "name"), [("config/fleet.csv", "fleet"), ("here/fleet.csv", "here-fleet")])
+@pytest.mark.parametrize(
+    ("table", "name"),
+    # the campaign below has a third one, in a folder called four
+    [("config/fleet.csv", "fleet"), pytest.param("here/fleet.csv", "here-fleet", marks=pytest.mark.long)],
+)
 def test_two_fleets_of_one_file_name_have_folders_of_their_own(finished, table, name):
     (finished / "here").mkdir(exist_ok=True)
     shutil.copy(ROOT / "config" / "fleet.csv", finished / "here")

@@ -20,7 +20,6 @@ from tests.seeds import seeds
 ARM = load_arm(Path(__file__).parents[2] / "examples" / "five-effects" / "robot.yaml")
 OWN = np.random.default_rng(7).normal(0, 1e-3, 6)
 """Joint zeros of the arm that nobody calibrated: in every recording."""
-NULL_WORLDS = 24
 
 
 def session(seed, rows=70, offsets=(), give=0.0, noise_mm=0.03):
@@ -43,20 +42,21 @@ def wandering(table, seed):
     return replace(table, positions=table.positions + np.cumsum(steps, axis=0))
 
 
-def test_where_nothing_changed_nothing_is_named_at_the_stated_rate():
-    """The number named by chance is binomial with at most LEVEL: more than 4 of 24 has a probability below 1 %.
+@pytest.mark.parametrize(("worlds", "most"), [(12, 3), pytest.param(24, 4, marks=pytest.mark.long)])
+def test_where_nothing_changed_nothing_is_named_at_the_stated_rate(worlds, most):
+    """The number named by chance is binomial with at most LEVEL: more than that has a probability below 1 %.
 
     A third has white noise, a third another noise and fewer rows in one recording, a third wanders. No threshold was
     chosen on these seeds.
     """
     found = []
-    for n in range(5000, 5000 + NULL_WORLDS // 3):
+    for n in range(5000, 5000 + worlds // 3):
         before, after = session(2 * n), session(2 * n + 1)
         found.append(compare(ARM, {"a": before, "b": after}))
         found.append(compare(ARM, {"a": before, "b": session(2 * n + 1, rows=45, noise_mm=0.15)}))
         found.append(compare(ARM, {"a": wandering(before, n), "b": wandering(after, -n % 7919)}))
-    assert len(found) == NULL_WORLDS
-    assert sum(bool(each.changes) for each in found) <= 4
+    assert len(found) == worlds
+    assert sum(bool(each.changes) for each in found) <= most
     assert all((each.p_nothing_changed <= LEVEL) == bool(each.changes) for each in found)
 
 
@@ -74,10 +74,11 @@ def test_recordings_of_other_poses_or_payloads_are_not_held_against_each_other(w
     assert "cannot be told" in found.headline
 
 
-def test_an_encoder_that_was_shifted_is_named_and_its_interval_holds_the_size():
-    """Of 12 intervals of 95 % fewer than 10 hold the truth with a probability of 2 %."""
+@pytest.mark.parametrize(("worlds", "least"), [(6, 5), pytest.param(12, 10, marks=pytest.mark.long)])
+def test_an_encoder_that_was_shifted_is_named_and_its_interval_holds_the_size(worlds, least):
+    """Of 6 or 12 intervals of 95 % fewer hold the truth with a probability of 3 or 2 %."""
     held = 0
-    for seed in range(12):
+    for seed in range(worlds):
         joint, offset = 2 + seed % 4, (-1) ** seed * 4e-4
         found = compare(ARM, {"before": session(100 + seed), "after": session(200 + seed, offsets={joint: offset})})
         change = found.changes[0]
@@ -89,7 +90,7 @@ def test_an_encoder_that_was_shifted_is_named_and_its_interval_holds_the_size():
             held += low < offset < high
         else:
             held += 1
-    assert held >= 10
+    assert held >= least
 
 
 def test_a_joint_that_became_softer_is_named_or_stands_among_the_alternatives():
@@ -153,7 +154,9 @@ def test_of_a_series_a_zero_that_changed_twice_did_so_by_what_was_planted(zeros,
         assert high - low < 2e-4
 
 
-@pytest.mark.parametrize("zeros", [(0, 6e-4, 1e-3), (0, 5e-4, 0, 0), (0, 5e-4, 5e-4, 12e-4)])
+@pytest.mark.parametrize(
+    "zeros", [pytest.param((0, 6e-4, 1e-3), marks=pytest.mark.long), (0, 5e-4, 0, 0), (0, 5e-4, 5e-4, 12e-4)]
+)
 def test_what_is_to_be_mended_adds_up_to_what_is_off_in_the_last_recording(zeros):
     """Whichever way the changes of a zero are told: two steps, or one of the last and one that is over."""
     found = compare(ARM, {f"{k}": session(800 + k, offsets={4: zero}) for k, zero in enumerate(zeros)})
@@ -204,17 +207,20 @@ def test_what_is_left_of_a_recording_is_its_noise_once_the_change_is_taken_in():
     )
 
 
-def test_a_zero_that_moved_as_far_as_would_be_seen_is_named_and_one_of_half_the_size_is_not():
-    """Nine of ten are promised: fewer than 7 of 10 have a probability of 1 %. Half the size lies below chance's own."""
+@pytest.mark.parametrize(("worlds", "least", "most"), [(5, 3, 1), pytest.param(10, 7, 2, marks=pytest.mark.long)])
+def test_a_zero_that_moved_as_far_as_would_be_seen_is_named_and_one_of_half_the_size_is_not(worlds, least, most):
+    """Nine of ten are promised: fewer than 3 of 5, or 7 of 10, have a probability of 1 %. Half the size lies below
+    chance's own.
+    """
     named = {1.0: 0, 0.5: 0}
-    for seed in range(10):
+    for seed in range(worlds):
         joint, before = 2 + seed % 4, session(9100 + seed)
         seen = compare(ARM, {"a": before, "b": session(9600 + seed)}).seen
-        least = next(each.least_rad for each in seen if each.location == f"joint {joint}")
+        seen_from = next(each.least_rad for each in seen if each.location == f"joint {joint}")
         for share in named:
-            after = session(9600 + seed, offsets={joint: share * least})
+            after = session(9600 + seed, offsets={joint: share * seen_from})
             named[share] += bool(compare(ARM, {"a": before, "b": after}).changes)
-    assert named[1.0] >= 7
-    assert named[0.5] <= 2
+    assert named[1.0] >= least
+    assert named[0.5] <= most
     hidden = {each.location for each in seen if not np.isfinite(each.least_rad)}
     assert hidden == {"joint 1", "joint 6"}, "the base turns as joint 1 does, and the tool as the last one"

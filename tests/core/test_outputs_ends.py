@@ -53,7 +53,8 @@ def test_a_dash_is_standard_output_and_words_go_elsewhere():
 
 
 def test_devices_are_written_through(tmp_path):
-    to_file, to_device, to_stdout = tmp_path / "a.csv", command(*PREDICT, "/dev/stdout"), command(*PREDICT, "-")
+    to_file, to_device = tmp_path / "a.csv", command(*PREDICT, "/dev/stdout")
+    to_stdout = run(*PREDICT, "-", app=app)
     assert run(*PREDICT, to_file, app=app).exit_code == 0
     assert to_device.stdout == to_stdout.stdout == to_file.read_text()
     assert run(*PREDICT, "/dev/null", app=app).exit_code == 0

@@ -82,7 +82,13 @@ def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
     assert names(verdict) == {("unknown", "joint 2")}
 
 
-@pytest.mark.parametrize("elsewhere", [0.0, 2e-3], ids=["right elsewhere", "a little wrong everywhere"])
+@pytest.mark.parametrize(
+    "elsewhere",
+    [
+        pytest.param(0.0, id="right elsewhere", marks=pytest.mark.long),
+        pytest.param(2e-3, id="a little wrong everywhere"),
+    ],
+)
 def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
     """A curve of a joint's angle holds its zero, too: 20 mrad of it are a zero, 3 mrad have no name."""
     rng = np.random.default_rng(2)

@@ -95,7 +95,7 @@ def seen_from_one_side(table: Recordings, seed: int, bent: float) -> Recordings:
     return replace(table, orientation=(turns * Rotation.from_rotvec(error)).as_quat(scalar_first=True))
 
 
-@pytest.mark.parametrize(("seed", "bent"), [(0, 0.0), (1, 1.5)])
+@pytest.mark.parametrize(("seed", "bent"), [pytest.param(0, 0.0, marks=pytest.mark.long), (1, 1.5)])
 def test_what_goes_with_the_side_that_is_seen_is_the_instruments(seed: int, bent: float) -> None:
     """On a smooth path neighbouring attitudes err alike: that was told as up to eight jumps of the tool."""
     arm = arm_named("six-axis")
@@ -213,7 +213,7 @@ def test_held_out_orientations_become_as_good_as_their_noise() -> None:
     held_out = diagnose(arm, table, replace(QUICK, cross_validation=True)).held_out
     assert held_out.turn_before > 2 * TURN_MRAD
     assert held_out.turn_after < 1.15 * TURN_MRAD
-    bare = diagnose(arm, without(table), replace(QUICK, cross_validation=True))
+    bare = diagnose(arm, without(table).rows(np.arange(40)), replace(QUICK, cross_validation=True))
     assert np.isnan(bare.held_out.turn_after)
     assert bare.to_json()["orientation"] is None
 

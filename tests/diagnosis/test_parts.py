@@ -177,7 +177,7 @@ def test_the_atlas_shows_where_and_by_what() -> None:
 @pytest.mark.parametrize(
     ("robot", "effect", "place", "driver", "values"),
     [
-        ("six-axis", "link_geometry", "link 2", "constant", [1e-3, -8e-4, 5e-4]),
+        pytest.param("six-axis", "link_geometry", "link 2", "constant", [1e-3, -8e-4, 5e-4], marks=pytest.mark.long),
         ("seven-axis", "link_geometry", "link 4", "constant", [1e-3, -8e-4, 5e-4]),  # modified D-H rows
         ("six-axis", "link_bending", "link 2", "gravity load", [3e-6]),
         ("six-axis", "thermal_expansion", "link 2", "temperature", [3e-4]),
@@ -201,7 +201,11 @@ def test_the_atlas_shows_links_and_what_is_no_joint(
     assert set(found.locations) >= {f"link {j}" for j in range(1, arm.n_joints + 1)}
 
 
-@pytest.mark.parametrize("ids", ["in order", "text", "of a list of poses in another order"])
+@pytest.mark.parametrize(
+    "ids",
+    # of ids in order it is asked below as well, of a fainter jump
+    [pytest.param("in order", marks=pytest.mark.long), "text", "of a list of poses in another order"],
+)
 def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> None:
     arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
     names = np.arange(1, 121) if ids != "of a list of poses in another order" else (np.arange(120) * 7) % 120 + 1

@@ -45,15 +45,20 @@ def chosen_worlds() -> list[WorldSpec]:
     return [*first.values(), multiple.model_copy(update={"id": LONG, "rows": 3300})]
 
 
+AGAIN = ("clean", "single", "multiple", "real")
+"""Categories of which an example is one as well, and the one that takes longest."""
+
+
 def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
-    """Every case's name and verdict."""
+    """Every case's name and verdict; of the worlds all, or those of `AGAIN`, or the others, or the long one."""
     for example in sorted(path.parent for path in (ROOT / "examples").glob("*/recordings.csv")):
         if only in ("", "examples"):
             yield example.name, diagnosed(example, Settings(resamples=2))
-    if only in ("", "worlds", "long"):
+    if only in ("", "worlds", "again", "others", "long"):
         with tempfile.TemporaryDirectory() as made:
             for spec in chosen_worlds():
-                if only and (only == "long") != (spec.id == LONG):
+                kind = "long" if spec.id == LONG else "again" if spec.category in AGAIN else "others"
+                if only not in ("", kind) and (only != "worlds" or kind == "long"):
                     continue
                 home = build(spec, Path(made), ROOT / "config" / "robots")
                 yield f"{spec.id}-{spec.category}", diagnosed(home / "visible", QUICK)

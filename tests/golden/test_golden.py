@@ -32,7 +32,10 @@ def _words(content: Any) -> Any:
     return content if isinstance(content, str) else None
 
 
-@pytest.mark.parametrize("kind", ["examples", "worlds", pytest.param("long", marks=pytest.mark.long)])
+LATER = [pytest.param(kind, marks=pytest.mark.long) for kind in ("again", "long")]
+
+
+@pytest.mark.parametrize("kind", ["examples", "others", *LATER])
 def test_names_places_and_numbers_are_what_they_were(kind: str) -> None:
     golden = json.loads(DIGEST.read_text(encoding="utf-8"))
     for name, verdict in verdicts(kind):

@@ -27,6 +27,8 @@ from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, path
 Spec = dict[str, Any]
 JOINT, MOVES_RAD_S, NOISE = 1, 0.05, 0.01
 """The joint that most causes are planted at, from 0; the speed below which a joint turns back; of its torque."""
+SHORT, LONG = (2, 10.0), (3, 15.0)
+"""How many paths are recorded, and s of each: a whole period of them is what most cures need."""
 DRIVES = [
     {"coulomb_nm": float(dry), "viscous_nm_s_rad": float(viscous), "rotor_inertia_kg_m2": float(rotor)}
     for dry, viscous, rotor in zip(COULOMB, VISCOUS, ROTOR, strict=True)
@@ -92,16 +94,18 @@ def simulated(spec: Spec, motion: Motion) -> Array:
     return rigid(spec, motion) + dry * np.sign(motion.dq) + viscous * motion.dq + rotor * motion.ddq
 
 
-def moved(seed: int, run: int) -> Motion:
-    time, q, dq, ddq = path(np.random.default_rng([seed, run]), 3, 15.0, 200.0)
+def moved(seed: int, run: int, seconds: float = LONG[1]) -> Motion:
+    time, q, dq, ddq = path(np.random.default_rng([seed, run]), 3, seconds, 200.0)
     return Motion(time, q, dq, ddq, 22 + 6 * run + 8 * (1 - np.exp(-time / 8)))
 
 
-def diagnosed(spec: Spec, plant: Torque, seed: int, warm: bool = False) -> tuple[FoundCause, ...]:
-    """What is named on three paths of an arm that is not as stated."""
+def diagnosed(
+    spec: Spec, plant: Torque, seed: int, warm: bool = False, paths: tuple[int, float] = SHORT
+) -> tuple[FoundCause, ...]:
+    """What is named on some paths of an arm that is not as stated."""
     pieces, rng = [], np.random.default_rng([seed, 99])
-    for run in range(3):
-        motion = moved(seed, run)
+    for run in range(paths[0]):
+        motion = moved(seed, run, paths[1])
         torque = plant(motion, simulated(spec, motion))
         torque = torque + NOISE * torque.std(axis=0) * rng.normal(size=torque.shape)
         columns = {"run": f"path {run + 1}", "time_s": motion.time}

@@ -32,7 +32,13 @@ def drifts(verdict: Diagnosis) -> list[tuple[str, str]]:
 
 
 @pytest.mark.parametrize(
-    ("rows", "joint", "radians"), [(UR5E, 2, 2e-4), (UR5E, 4, 1e-3), (UR5E, 3, -5e-4), (IIWA, 4, 5e-4)]
+    ("rows", "joint", "radians"),
+    [
+        (UR5E, 2, 2e-4),
+        pytest.param(UR5E, 4, 1e-3, marks=pytest.mark.long),
+        pytest.param(UR5E, 3, -5e-4, marks=pytest.mark.long),
+        (IIWA, 4, 5e-4),
+    ],
 )
 def test_a_zero_that_jumps_is_named_with_its_size_and_moment(
     rows: list[tuple[float, float, float]], joint: int, radians: float
