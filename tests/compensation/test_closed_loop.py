@@ -74,7 +74,11 @@ class Loop:
         return compensate_physical(model, self.identified, self.path, Options("measurement", start=self.start))
 
 
-@pytest.mark.parametrize("name", ["world-005", "world-010"])  # joint offset; bearing compliance under load
+@pytest.mark.parametrize(
+    "name",
+    # a joint offset; bearing compliance under load
+    [pytest.param("world-005", marks=pytest.mark.long), "world-010"],
+)
 def test_a_concealed_arm_follows_the_commands_to_within_its_noise(name, tmp_path):
     loop = Loop(name, tmp_path)
     result = loop.commands(loop.model)

@@ -56,7 +56,7 @@ def test_drives_that_harden_are_not_told_as_play(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
-@pytest.mark.parametrize("turn", [0.0, 4e-5])
+@pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), 4e-5])
 def test_play_is_named_beside_drives_that_harden(turn: float, seed: int) -> None:
     verdict = diagnose(*wound("seven-axis", dict.fromkeys(range(3, 7), turn), seed, PLAY), QUICK)
     assert names(verdict) == {("backlash", "joint 2")}

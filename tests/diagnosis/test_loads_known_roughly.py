@@ -79,7 +79,14 @@ def holds(effect: FoundEffect, parameter: str, truth: float) -> bool:
     return bool(low <= truth <= high)
 
 
-@pytest.mark.parametrize("masses", [WRONG, -WRONG, np.zeros(6)], ids=["wrong", "wrong the other way", "as stated"])
+@pytest.mark.parametrize(
+    "masses",
+    [
+        pytest.param(WRONG, id="wrong"),
+        pytest.param(-WRONG, id="wrong the other way", marks=pytest.mark.long),
+        pytest.param(np.zeros(6), id="as stated"),
+    ],
+)
 def test_drives_are_told_alone_and_their_intervals_hold_whatever_the_masses(masses: np.ndarray) -> None:
     arm = arm_named("six-axis")
     verdict = diagnose(arm, measured(arm, masses, drives, 200, seed=11), QUICK)

@@ -121,7 +121,7 @@ def test_of_several_runs_the_one_in_which_it_changes_is_told(seed: int) -> None:
     assert found.verdict.held_out.what.endswith("run 3, of whose own load no other run knows")
 
 
-@pytest.mark.parametrize("seed", seeds(2, 3, 5))
+@pytest.mark.parametrize("seed", seeds(8, 2, 3, 5))
 def test_a_load_that_comes_and_goes_is_one_cause_with_all_its_moments(seed: int) -> None:
     world = World("several", 3 + seed % 4, seed, runs=1 + 2 * (seed // 4 % 2))
     right, words = said(world, diagnosed(world)[0].verdict)
@@ -129,7 +129,7 @@ def test_a_load_that_comes_and_goes_is_one_cause_with_all_its_moments(seed: int)
 
 
 @pytest.mark.parametrize("kind", ["none", "always"])
-@pytest.mark.parametrize("seed", seeds(1, 2, 3, 5))
+@pytest.mark.parametrize("seed", seeds(8, 1, 2, 3, 5))
 def test_where_nothing_changes_nothing_is_said_to(kind: str, seed: int) -> None:
     world = World(kind, 3 + seed % 4, seed, by_points=seed % 2 == 0)
     right, words = said(world, diagnosed(world)[0].verdict)
