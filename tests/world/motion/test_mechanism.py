@@ -55,6 +55,15 @@ def pendulum(**changes):
     return MovingArm(Geometry(description), replace(stated_dynamics(description), **changes))
 
 
+def test_a_body_at_the_end_of_a_pendulum_by_hand():
+    """0.5 m from the axis, and beyond the tool point along it: its inertia about its own centre adds to mass x r^2."""
+    angle, speed, acceleration = np.array([[0.6], [-0.3]]), np.array([[-0.8], [0.4]]), np.array([[2.5], [-1.0]])
+    held = {"load": 2.0, "load_centre": np.array([0.0, 0.0, 0.1]), "load_inertia": 0.3}
+    with_body, without = (pendulum(**changes).torques(angle, speed, acceleration) for changes in (held, {}))
+    turned, pulled = (2.0 * 0.5**2 + 0.3) * acceleration, 2.0 * 9.81 * 0.5 * np.sin(angle)
+    np.testing.assert_allclose(with_body - without, turned + pulled, rtol=1e-6)
+
+
 def test_a_pendulum_by_hand():
     """0.4 m from the axis to the centre of mass; hangs along x."""
     angle, speed, acceleration = np.array([[0.6]]), np.array([[-0.8]]), np.array([[2.5]])

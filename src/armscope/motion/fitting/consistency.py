@@ -97,10 +97,6 @@ class Weighed(Protocol):
     def best(self) -> Hypothesis:
         """What won."""
 
-    @property
-    def foretold(self) -> Indices:
-        """Blocks that others can foretell."""
-
 
 def agreement_of(selected: Weighed, paths: bool, candidate: int) -> PathAgreement:
     """A candidate's size from each block by itself.

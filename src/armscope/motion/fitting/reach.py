@@ -27,7 +27,9 @@ REACH = ReachRules()
 
 
 def within_reach(run: NDArray[np.str_], block: Indices, moving: NDArray[np.bool_], state: tuple[Array, ...]) -> Indices:
-    """Blocks whose motion the others show, most of it at every joint; all of them, where they are parts of one run.
+    """Blocks of whose motion the others show enough at every joint; all of them, where they are parts of one run.
+
+    Others show what lies between the least and the most of theirs, gaps among them or not.
 
     Args:
         run: (K,) name of each row's run.

@@ -85,11 +85,6 @@ class SelectedTwist:
     best: Hypothesis
 
     @property
-    def foretold(self) -> Indices:
-        """Blocks that the others can foretell: all, for a link turns with its motor."""
-        return np.arange(len(self.blocks))
-
-    @property
     def coefficients(self) -> Array:
         """(p,) SI."""
         return coefficients_of(self.problem, self.best)

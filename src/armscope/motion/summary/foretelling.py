@@ -68,23 +68,22 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
 def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
     """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
 
-    Beside those of nothing at all, and of blocks that the others can foretell.
+    Beside those of nothing at all.
 
     Args:
-        selected: with B such blocks.
+        selected: with B blocks.
         asked: A hypotheses, and the effects that are fitted.
 
     Returns:
         (A, B).
     """
-    nats = np.zeros((len(asked), len(selected.foretold)))
-    for at_block, held in enumerate(selected.foretold):
+    nats = np.zeros((len(asked), len(selected.blocks)))
+    for held, block in enumerate(selected.blocks):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        trained = selected.problem.with_equations(rest)
-        apart = selected.blocks[held].scaled(selected.problem.scale)
+        trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
         for row, (best, effects) in zip(nats, asked, strict=True):
             fitted = evaluate(trained, effects, best.background, best.noise)
             at = fitted.columns
             squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
-            row[at_block] = float(squares) / (2 * best.noise**2)
+            row[held] = float(squares) / (2 * best.noise**2)
     return nats
