@@ -57,20 +57,12 @@ def path(rng: np.random.Generator, joints: int, seconds: float, rate: float) -> 
 
 
 def table(
-    arm: MovingArm,
-    seed: int,
-    plant: Plant | None = None,
-    runs: int = 2,
-    noise: float = 0.02,
-    seconds: float = 15.0,
-    paces: tuple[float, ...] = (),
+    arm: MovingArm, seed: int, plant: Plant | None = None, runs: int = 2, noise: float = 0.02, seconds: float = 15.0
 ) -> pd.DataFrame:
-    """motions.csv of an arm with ordinary friction and rotors, and what is planted; each run as fast as told."""
+    """motions.csv of an arm with ordinary friction and rotors, and what is planted."""
     rng, pieces = np.random.default_rng(seed), []
     for run in range(runs):
-        pace = paces[run] if paces else 1.0
-        time, q, dq, ddq = path(rng, arm.n_motors, seconds * pace, 200.0 / pace)
-        time, dq, ddq = time / pace, dq * pace, ddq * pace**2
+        time, q, dq, ddq = path(rng, arm.n_motors, seconds, 200.0)
         data = arm.model.createData()
         rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
         n = arm.n_motors

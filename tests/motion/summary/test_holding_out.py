@@ -12,7 +12,7 @@ from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary.holding_out import as_entered, coefficients_of, folds
 from armscope.recordings.motions import as_motions
 from tests.motion.fitting.test_pauses import from_point_to_point
-from tests.motion.moving import COULOMB, moved, robot, table
+from tests.motion.moving import COULOMB, moved, robot
 from tests.seeds import seeds
 
 JOINT = 1
@@ -55,12 +55,12 @@ def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
 @pytest.mark.parametrize("seed", seeds(5, 6))
 def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
     """Recordings that differ in the forces of their pauses alone, in which no model foretells them."""
-    twice = [as_motions(from_point_to_point(seed, held), "motions.csv", 3) for held in (0.9, -0.9)]
-    apart = np.sqrt(np.mean((twice[0].effort - twice[1].effort) ** 2, axis=0))
+    tables = [as_motions(from_point_to_point(seed, held), "motions.csv", 3) for held in (0.9, -0.9)]
+    apart = np.sqrt(np.mean((tables[0].effort - tables[1].effort) ** 2, axis=0))
     assert np.all(apart > 0.3 * COULOMB)
     noise = 0.01
-    for motions in twice:
-        verdict = diagnose_motion(robot(), motions).verdict
+    for table in tables:
+        verdict = diagnose_motion(robot(), table).verdict
         held_out = verdict.held_out
         assert max(held_out.background, held_out.model, *held_out.by_run.values()) < noise
         assert max(step.held_out for step in verdict.waterfall) < noise
@@ -78,16 +78,3 @@ def test_a_fold_names_nothing_that_is_there_in_its_own_run_only() -> None:
         assert () in competing
         assert (left,) not in competing
     assert found.verdict.held_out.model == pytest.approx(found.verdict.waterfall[-1].held_out, rel=0.02)
-
-
-def test_a_run_that_is_faster_than_all_others_is_not_held_out_and_that_is_said() -> None:
-    arm = robot()
-    alike, unlike = (
-        diagnose_motion(arm, as_motions(table(arm, 4, paces=paces, seconds=20.0), "motions.csv", 3))
-        for paces in ((1.0, 1.0), (0.1, 1.0))
-    )
-    assert alike.verdict.held_out.what == "each run in turn"
-    assert list(alike.verdict.held_out.by_run) == ["path 1", "path 2"]
-    assert unlike.verdict.held_out.what == "each run in turn (path 2 goes beyond what others show)"
-    assert list(unlike.verdict.held_out.by_run) == ["path 1"]
-    assert not unlike.verdict.mismatch

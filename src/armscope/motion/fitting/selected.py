@@ -12,7 +12,6 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import ModelSpace
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
-from armscope.motion.fitting.reach import within_reach
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.sums import JointSums
 from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_elsewhere, weighed
@@ -40,12 +39,6 @@ class SelectedCauses:
     def blocks(self) -> list[NormalEquations]:
         """Sums over each block, of all joints by their noise."""
         return [weighed(self.rows, parts, self.weights) for parts in self.by_joint]
-
-    @functools.cached_property
-    def foretold(self) -> Indices:
-        """Blocks that the others can foretell: these go where it goes."""
-        rows = self.rows
-        return within_reach(rows.run, self.block, rows.moving, (rows.q, rows.dq))
 
     @functools.cached_property
     def coefficients(self) -> Array:

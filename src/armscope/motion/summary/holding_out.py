@@ -43,9 +43,10 @@ class Fold:
 
 
 def folds(selected: SelectedCauses) -> list[Fold]:
-    """Runs in turn that others can foretell; of a single run, one end of it once."""
+    """Runs in turn; of a single run, one end of it once."""
+    count = len(selected.blocks)
     single = len(set(selected.rows.run.tolist())) == 1
-    parts = [_end(selected)] if single else [(int(k),) for k in selected.foretold]
+    parts = [_end(selected)] if single else [(k,) for k in range(count)]
     made = []
     for held in parts:
         problem = _of_all_runs(selected, _of_the_rest(selected, held), held)
@@ -59,14 +60,8 @@ def folds(selected: SelectedCauses) -> list[Fold]:
 
 def held_out_in_words(parts: Sequence[Fold]) -> str:
     """Which motion `folds` holds out."""
-    runs = list(dict.fromkeys(parts[0].rows.run.tolist()))
-    if len(runs) > 1:
-        held = {str(part.rows.run[part.which[0]]) for part in parts}
-        beyond = [run for run in runs if run not in held]
-        goes = (
-            f" ({', '.join(beyond)} {'goes' if len(beyond) == 1 else 'go'} beyond what others show)" if beyond else ""
-        )
-        return f"each run in turn{goes}"
+    if len(parts) > 1:
+        return "each run in turn"
     return f"the {'first' if parts[0].which[0] == 0 else 'last'} two fifths of the motion"
 
 
