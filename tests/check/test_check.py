@@ -52,7 +52,7 @@ def _runs(*tables):
     return replace(tables[0], run=np.array(names), **stacked)
 
 
-@pytest.mark.parametrize("share", [80, 20])
+@pytest.mark.parametrize("share", [pytest.param(80, marks=pytest.mark.long), 20])
 def test_a_mistake_of_one_run_is_named_with_its_run_however_few_rows_it_has(arm, sound, share):
     other = sound.rows(slice(share))
     for mistake, words in (
