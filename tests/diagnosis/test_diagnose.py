@@ -192,7 +192,11 @@ TRUTH = {
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("example", TRUTH)
+@pytest.mark.parametrize(
+    "example",
+    # the others are named in tests/golden as well
+    [pytest.param(name, marks=[pytest.mark.long] * (name in ("clean", "one-effect"))) for name in TRUTH],
+)
 def test_the_four_examples_are_diagnosed_and_predicted(example: str) -> None:
     folder = SHARED / example
     if not folder.is_dir():
