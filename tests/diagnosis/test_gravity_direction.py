@@ -24,11 +24,11 @@ FREE = Settings(resamples=0, cross_validation=False, estimate_gravity=True)
 DRIVES = {("joint_compliance", "joint 2"): [4e-7], ("joint_compliance", "joint 3"): [8e-7]}
 
 
-def on_a_wedge(degrees: float, rows: int = 150) -> Verdict:
+def on_a_wedge(degrees: float) -> Verdict:
     """An arm that gives way on a wedge, diagnosed as if it stood upright."""
     upright = arm_named("six-axis")
     leaning = turned(upright, np.radians([degrees * 0.8, degrees * 0.6]))
-    return diagnose(upright, recorded(leaning, one_run(leaning, rows, 3), DRIVES, 0.02, seed=4), FREE)
+    return diagnose(upright, recorded(leaning, one_run(leaning, 150, 3), DRIVES, 0.02, seed=4), FREE)
 
 
 def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
@@ -47,14 +47,14 @@ def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
 
 
 def test_gravity_that_is_stated_rightly_stays_as_it_is() -> None:
-    verdict = on_a_wedge(0.0, rows=60)
+    verdict = on_a_wedge(0.0)
     assert "gravity as stated" in {notice.kind for notice in verdict.notices}
     np.testing.assert_array_equal(verdict.model.arm.gravity, arm_named("six-axis").gravity)
 
 
 def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
     arm = arm_named("six-axis")
-    table = recorded(arm, one_run(arm, 60, 3), {("joint_offset", "joint 3"): [1e-3]}, 0.02, seed=4)
+    table = recorded(arm, one_run(arm, 100, 3), {("joint_offset", "joint 3"): [1e-3]}, 0.02, seed=4)
     assert "gravity as stated" in {notice.kind for notice in diagnose(arm, table, FREE).notices}
 
 

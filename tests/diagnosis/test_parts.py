@@ -178,9 +178,10 @@ def test_the_atlas_shows_where_and_by_what() -> None:
     ("robot", "effect", "place", "driver", "values"),
     [
         pytest.param("six-axis", "link_geometry", "link 2", "constant", [1e-3, -8e-4, 5e-4], marks=pytest.mark.long),
-        ("seven-axis", "link_geometry", "link 4", "constant", [1e-3, -8e-4, 5e-4]),  # modified D-H rows
+        # modified D-H rows
+        pytest.param("seven-axis", "link_geometry", "link 4", "constant", [1e-3, -8e-4, 5e-4], marks=pytest.mark.long),
         ("six-axis", "link_bending", "link 2", "gravity load", [3e-6]),
-        ("six-axis", "thermal_expansion", "link 2", "temperature", [3e-4]),
+        pytest.param("six-axis", "thermal_expansion", "link 2", "temperature", [3e-4], marks=pytest.mark.long),
         ("six-axis", "instrument_scale", "instrument", "constant", [4e-4]),
     ],
 )

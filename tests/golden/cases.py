@@ -45,8 +45,8 @@ def chosen_worlds() -> list[WorldSpec]:
     return [*first.values(), multiple.model_copy(update={"id": LONG, "rows": 3300})]
 
 
-AGAIN = ("clean", "single", "multiple", "real")
-"""Categories of which an example is one as well, and the one that takes longest."""
+AGAIN = ("clean", "single", "multiple", "real", "bad_shots")
+"""Categories of which an example is one as well, and those that take longest."""
 
 
 def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
