@@ -122,7 +122,7 @@ def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: fl
 
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")
-@pytest.mark.parametrize("torques", [pytest.param("recorded", marks=pytest.mark.long), "withheld"])
+@pytest.mark.parametrize("torques", ["recorded", pytest.param("withheld", marks=pytest.mark.long)])
 def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint(torques: str) -> None:
     """README: 62.5, 67.7 and 54.6 urad per N m where nothing else gives; the mass table is too light by 1.3 to 1.46.
 
