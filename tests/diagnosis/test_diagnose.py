@@ -145,7 +145,7 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
 def test_the_same_seed_gives_the_same_verdict_and_files_follow_the_contract(tmp_path: Path) -> None:
     wanted = {("joint_compliance", "joint 2"): [4e-7], ("joint_offset", "joint 3"): [3e-4]}
     arm, table = planted("six-axis", wanted, 100, 0.02, seed=50)
-    settings = Settings(seed=3, resamples=4)
+    settings = Settings(seed=3, resamples=2)
     heard: list[float] = []
     first = diagnose(arm, table, settings, lambda text, share: heard.append(share))
     second = diagnose(arm, table, settings)
