@@ -151,7 +151,11 @@ def test_commands_of_a_diagnosed_urdf_bring_the_real_arm_to_its_points(robot, mo
     assert missed["after"] < NOISE_MM < 0.1 * missed["before"]
 
 
-@pytest.mark.parametrize("stated", [True, False])
+@pytest.mark.parametrize(
+    "stated",
+    # gravity that is asked for: in the quick run of arms of tables (tests/diagnosis/test_gravity_direction.py)
+    [True, pytest.param(False, marks=pytest.mark.long)],
+)
 def test_an_arm_on_a_wedge_is_understood_whether_its_lean_is_stated_or_asked_for(robot, stated):
     lean = Rotation.from_rotvec(np.radians(20) * np.array([0.6, 0.8, 0.0])).apply([0, 0, -9.81])
     real = Real(TORSO_ARM.read_text(), compliance={"lift": 8e-5, "elbow": 1e-4})

@@ -52,7 +52,7 @@ def _runs(*tables):
     return replace(tables[0], run=np.array(names), **stacked)
 
 
-@pytest.mark.parametrize("share", [80, 20])
+@pytest.mark.parametrize("share", [pytest.param(80, marks=pytest.mark.long), 20])
 def test_a_mistake_of_one_run_is_named_with_its_run_however_few_rows_it_has(arm, sound, share):
     other = sound.rows(slice(share))
     for mistake, words in (
@@ -189,7 +189,13 @@ def test_without_an_arm_units_that_no_arm_has_are_hinted_at(mistake, words, soun
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets", "panda-charuco"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("ur10-ipa", "ma1400-leica")),
+        *("iiwa7-payload", "irb120-offsets", "panda-charuco"),
+    ],
+)
 def test_real_tables_have_no_problems_and_their_mistakes_are_still_named(name):
     if not SHARED.is_dir():
         pytest.skip("../shared/recordings is not here, so there is nothing to look at")

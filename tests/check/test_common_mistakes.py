@@ -30,6 +30,11 @@ def _relative(table, sign):
     return table.motor_angles + sign * table.motor_angles[:, [1]] * (np.arange(6) == 2)
 
 
+def _again(mistake, words):
+    """A mistake that is like another one."""
+    return pytest.param(mistake, words, marks=pytest.mark.long)
+
+
 @pytest.mark.parametrize(
     ("mistake", "words"),
     [
@@ -38,9 +43,11 @@ def _relative(table, sign):
         (lambda t: replace(t, positions=t.positions / 1e3), "metres that were declared as millimetres"),
         (lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
         (lambda t: replace(t, positions=t.positions * [1, -1, 1]), "left-handed"),
-        (lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
+        _again(lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
         (lambda t: replace(t, motor_angles=t.motor_angles[:, ::-1]), "reverse order"),
-        (lambda t: replace(t, positions=np.roll(t.positions, 1, axis=0)), "1 row(s) too late"),
+        pytest.param(
+            lambda t: replace(t, positions=np.roll(t.positions, 1, axis=0)), "1 row(s) too late", marks=pytest.mark.long
+        ),
         (lambda t: replace(t, positions=np.roll(t.positions, -2, axis=0)), "2 row(s) too early"),
         (lambda t: _flip(t, 2), "joint 3 turns the other way"),
         # an arm upside down: the same to the points, wherever its base may be
@@ -60,7 +67,11 @@ def _relative(table, sign):
         (lambda t: replace(t, positions=t.positions * 1e-4), "Are these errors, measured minus nominal?"),
         (lambda t: replace(t, positions=t.positions / 10), "centimetres that were declared as millimetres"),
         (lambda t: replace(t, positions=t.positions * [1, 1, 1e-3]), "z looks like metres, where x and y are millim"),
-        (lambda t: replace(t, positions=t.positions * [1e-3, 1, 1]), "x looks like metres, where y and z are millim"),
+        pytest.param(
+            lambda t: replace(t, positions=t.positions * [1e-3, 1, 1]),
+            "x looks like metres, where y and z are millim",
+            marks=pytest.mark.long,
+        ),
         (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
         (
             lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
@@ -69,7 +80,9 @@ def _relative(table, sign):
         (lambda t: _off(t, 1, np.pi / 2), "zero of joint 2 is 90 degrees off. Add -90 degrees to q2"),
         (lambda t: _off(t, 3, np.pi), "zero of joint 4 is 180 degrees off"),
         (lambda t: replace(t, orientation=t.orientation * [1, 1, -1, -1]), "mirrored axis x"),
-        (lambda t: replace(t, orientation=t.orientation * [1, -1, -1, 1]), "mirrored axis z"),
+        pytest.param(
+            lambda t: replace(t, orientation=t.orientation * [1, -1, -1, 1]), "mirrored axis z", marks=pytest.mark.long
+        ),
         (
             lambda t: replace(t, positions=t.positions[np.random.default_rng(0).permutation(len(t))]),
             "does not explain the points",

@@ -10,7 +10,9 @@ from armscope.check.report import check
 from tests.check.test_check import problems
 
 
-@pytest.mark.parametrize("sequence", ["ZYX", "xyz", "ZXZ", "YXZ"])
+@pytest.mark.parametrize(
+    "sequence", ["ZYX", "xyz", *(pytest.param(each, marks=pytest.mark.long) for each in ("ZXZ", "YXZ"))]
+)
 @pytest.mark.parametrize("small", [False, True])
 def test_orientations_that_are_not_the_tools_are_said_and_left_alone(sequence, small, arm, sound):
     # the tool of poses about one direction turns little, so that another reading may be less wrong by chance

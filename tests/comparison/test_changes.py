@@ -139,7 +139,7 @@ def test_of_several_arms_the_one_that_is_unlike_the_others():
 @pytest.mark.parametrize(
     ("zeros", "changes"),
     [
-        ((0, 5e-4, 0, 0), {(("2",), ("1", "3", "4")): 5e-4}),
+        pytest.param((0, 5e-4, 0, 0), {(("2",), ("1", "3", "4")): 5e-4}, marks=pytest.mark.long),
         ((0, 5e-4, 5e-4, 12e-4), {(("2", "3"), ("1",)): 5e-4, (("4",), ("2", "3")): 7e-4}),
     ],
 )

@@ -23,21 +23,26 @@ from .planted import joined, one_run, planted, recorded
 
 QUICK = Settings(resamples=0, cross_validation=False)
 
+# in the quick run those that no other quick test plants alone: joint offsets and waves are in test_orientation.py, play
+# in test_hardening.py, compliances in test_parts.py, warm links in test_wander.py, bars in scans/test_linkage.py,
+# drifts in test_pauses.py
 SINGLES = [
-    ("six-axis", ("joint_offset", "joint 3"), [2e-4]),
+    pytest.param("six-axis", ("joint_offset", "joint 3"), [2e-4], marks=pytest.mark.long),
     ("seven-axis", ("gear_ratio", "joint 4"), [2e-4]),
-    ("parallelogram-120kg", ("gear_eccentricity", "joint 1"), [1e-4, -1e-4]),
-    ("six-axis", ("backlash", "joint 2"), [4e-4]),
+    pytest.param("parallelogram-120kg", ("gear_eccentricity", "joint 1"), [1e-4, -1e-4], marks=pytest.mark.long),
+    pytest.param("six-axis", ("backlash", "joint 2"), [4e-4], marks=pytest.mark.long),
     ("seven-axis", ("servo_lag", "joint 1"), [1e-3]),
     ("six-axis", ("joint_coupling", "joint 5 from joint 4"), [1e-3]),
-    ("six-axis", ("joint_compliance", "joint 3"), [2e-6]),
+    pytest.param("six-axis", ("joint_compliance", "joint 3"), [2e-6], marks=pytest.mark.long),
     ("parallelogram-120kg", ("bearing_compliance", "joint 4"), [1e-6]),
     ("parallelogram-120kg", ("link_bending", "link 2"), [3e-7]),
     ("six-axis", ("axis_wobble", "joint 2"), [1e-4, 0.0, 0.0, 2e-4]),
     ("six-axis", ("link_geometry", "link 3"), [3e-4, 2e-4, 0.0]),
-    ("parallelogram-120kg", ("thermal_expansion", "link 2"), [3e-5]),
-    ("parallelogram-120kg", ("parallelogram_geometry", "parallelogram"), [5e-4, -3e-4]),
-    ("seven-axis", ("base_drift", "base"), [2e-4, 0.0, -1e-4, 0.0, 2e-4, 0.0]),
+    pytest.param("parallelogram-120kg", ("thermal_expansion", "link 2"), [3e-5], marks=pytest.mark.long),
+    pytest.param(
+        "parallelogram-120kg", ("parallelogram_geometry", "parallelogram"), [5e-4, -3e-4], marks=pytest.mark.long
+    ),
+    pytest.param("seven-axis", ("base_drift", "base"), [2e-4, 0.0, -1e-4, 0.0, 2e-4, 0.0], marks=pytest.mark.long),
     ("seven-axis", ("instrument_scale", "instrument"), [3e-4]),
 ]
 
@@ -140,7 +145,7 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
 def test_the_same_seed_gives_the_same_verdict_and_files_follow_the_contract(tmp_path: Path) -> None:
     wanted = {("joint_compliance", "joint 2"): [4e-7], ("joint_offset", "joint 3"): [3e-4]}
     arm, table = planted("six-axis", wanted, 100, 0.02, seed=50)
-    settings = Settings(seed=3, resamples=4)
+    settings = Settings(seed=3, resamples=2)
     heard: list[float] = []
     first = diagnose(arm, table, settings, lambda text, share: heard.append(share))
     second = diagnose(arm, table, settings)
@@ -192,7 +197,11 @@ TRUTH = {
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("example", TRUTH)
+@pytest.mark.parametrize(
+    "example",
+    # the others are named in tests/golden as well
+    [pytest.param(name, marks=[pytest.mark.long] * (name != "seven-axes-modified-dh")) for name in TRUTH],
+)
 def test_the_four_examples_are_diagnosed_and_predicted(example: str) -> None:
     folder = SHARED / example
     if not folder.is_dir():

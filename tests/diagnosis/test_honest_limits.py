@@ -116,7 +116,7 @@ def test_a_table_without_masses_says_what_it_cannot_know() -> None:
     assert verdict.effects == ()
 
 
-@pytest.mark.parametrize("wrong", ["mirrored", "metres called millimetres"])
+@pytest.mark.parametrize("wrong", ["mirrored", pytest.param("metres called millimetres", marks=pytest.mark.long)])
 def test_a_run_that_fits_nothing_is_no_matter_of_bad_shots(wrong: str) -> None:
     arm = arm_named("six-axis")
     runs = [recorded(arm, one_run(arm, rows, seed), {}, 0.02, seed) for rows, seed in ((90, 3), (40, 4))]

@@ -39,7 +39,7 @@ def worst_later_mm(model: FittedModel, table: Recordings) -> float:
     return 1e3 * float(np.abs(predict(model, later) - predict(nominal, later)).max())
 
 
-@pytest.mark.parametrize("phase", [0.0, 0.7])
+@pytest.mark.parametrize("phase", [pytest.param(0.0, marks=pytest.mark.long), 0.7])
 def test_a_base_that_goes_to_and_fro_is_no_drift_of_centimetres(arm: Arm, phase: float) -> None:
     table = moving_base(arm, 1.8e-4 * np.sin(6 * np.pi * ALONG + phase))
     verdict = diagnose(arm, table, QUICK)

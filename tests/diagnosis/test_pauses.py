@@ -34,7 +34,9 @@ def drift_in(verdict):
     return next(p for p in (part.placed for part in verdict.model.parts) if p.name == "base_drift")
 
 
-@pytest.mark.parametrize(("pauses", "seed"), [({61: 2400.0}, 3), ({41: 1800.0, 90: 1500.0}, 4)])
+@pytest.mark.parametrize(
+    ("pauses", "seed"), [pytest.param({61: 2400.0}, 3, marks=pytest.mark.long), ({41: 1800.0, 90: 1500.0}, 4)]
+)
 def test_a_drift_with_pauses_is_one_drift_where_the_time_is_not_told(pauses, seed):
     arm = arm_named("six-axis")
     told = recorded(arm, timed(arm, pauses, seed), {("base_drift", "base"): DRIFT}, 0.02, seed)

@@ -87,7 +87,7 @@ def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:
     assert drift_of(verdict) == pytest.approx(0.028, rel=0.2)
 
 
-@pytest.mark.parametrize("in_order", [True, False])
+@pytest.mark.parametrize("in_order", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_a_wander_that_is_surely_seen_stays_though_poses_came_in_order(in_order: bool) -> None:
     """Along the order of rows a wander says nothing of other rows: only what is barely seen must foretell better."""
     arm, table = session()

@@ -77,7 +77,11 @@ def test_where_there_is_only_noise_the_covariance_is_the_fits_own() -> None:
     assert np.max(wider) < 1.5  # a drift is what a small wander, which nobody can rule out, looks like
 
 
-@pytest.mark.parametrize("kind", ["nothing", "wander", "turn"])
+@pytest.mark.parametrize(
+    "kind",
+    # where nothing errs, the covariance is the fit's own: see above
+    [pytest.param("nothing", marks=pytest.mark.long), "wander", "turn"],
+)
 def test_values_fitted_again_and_again_scatter_as_their_standard_errors_say(kind: str) -> None:
     """Brute force: the exact fit repeated on readings that err anew each time, the arm and its poses the same."""
     arm, table = planted("six-axis", WANTED, 150, 0.0, seed=41)

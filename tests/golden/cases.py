@@ -45,14 +45,16 @@ def chosen_worlds() -> list[WorldSpec]:
     return [*first.values(), multiple.model_copy(update={"id": LONG, "rows": 3300})]
 
 
-AGAIN = ("clean", "single", "multiple", "real")
-"""Categories of which an example is one as well, and the one that takes longest."""
+LAST = "seven-axes-modified-dh"
+"""An example that is diagnosed by tests/diagnosis/test_diagnose.py as well."""
+AGAIN = ("clean", "single", "multiple", "real", "bad_shots")
+"""Categories of which an example is one as well, and those that take longest."""
 
 
 def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
     """Every case's name and verdict; of the worlds all, or those of `AGAIN`, or the others, or the long one."""
     for example in sorted(path.parent for path in (ROOT / "examples").glob("*/recordings.csv")):
-        if only in ("", "examples"):
+        if only in ("", "examples") or only == ("again" if example.name == LAST else "others"):
             yield example.name, diagnosed(example, Settings(resamples=2))
     if only in ("", "worlds", "again", "others", "long"):
         with tempfile.TemporaryDirectory() as made:

@@ -35,7 +35,7 @@ def _words(content: Any) -> Any:
 LATER = [pytest.param(kind, marks=pytest.mark.long) for kind in ("again", "long")]
 
 
-@pytest.mark.parametrize("kind", ["examples", "others", *LATER])
+@pytest.mark.parametrize("kind", ["others", *LATER])
 def test_names_places_and_numbers_are_what_they_were(kind: str) -> None:
     golden = json.loads(DIGEST.read_text(encoding="utf-8"))
     for name, verdict in verdicts(kind):

@@ -12,10 +12,12 @@ import mujoco
 import numpy as np
 import pandas as pd
 
+from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
+from armscope.recordings.motions import as_motions
 from armscope.robot.description import RobotDescription
 from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import Dynamics, mjcf_of
-from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, path
+from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, path, robot
 
 STEP_S, RATE_HZ, SECONDS = 0.0005, 200.0, 15.0
 NOISE_RAD = 2e-6
@@ -37,6 +39,12 @@ def play(half: float) -> str:
 def recorded(behind: str, joint: int = 2, seed: int = 1, runs: int = 2, noise: float = 0.02) -> pd.DataFrame:
     """motions.csv of the arm with something behind the motor of a joint (from 1) whose link has an encoder, too."""
     return _simulated(behind, joint, seed, runs, noise).copy()
+
+
+@lru_cache  # what several modules ask of it, in one process
+def wound_up() -> MotionDiagnosis:
+    """What is said of the arm whose third joint has a soft spring."""
+    return diagnose_motion(robot(), as_motions(recorded(spring(3000.0), 3, 4), "motions.csv", 3))
 
 
 @lru_cache  # the rigid arm is the same in many tests, and a second of MuJoCo's steps

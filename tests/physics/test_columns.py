@@ -79,7 +79,10 @@ def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
     assert seen == expected
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize(
+    "name",
+    ["parallelogram-120kg", *(pytest.param(name, marks=pytest.mark.long) for name in ("seven-axis", "six-axis"))],
+)
 def test_columns_of_turns_are_the_slope_of_the_exact_orientation(name: str) -> None:
     arm = arm_named(name)
     scene = Scene(arm, with_orientations(full_table(arm, 24, seed=5)))

@@ -15,6 +15,8 @@ from armscope.robot.description import RobotDescription
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"
 AROUND = Surroundings(floor=0.0, tracker=np.array([4.0, 0.0, 1.5]))
+NOISE = 5e-5
+"""Of a reading, m."""
 
 
 @pytest.fixture(scope="module")
@@ -65,8 +67,14 @@ def test_every_kept_parameter_is_told_apart_and_moves_the_tool_by_a_millimetre(c
     assert not set(seen.hidden) & set(seen.names)
 
 
-def test_chosen_poses_beat_random_ones_and_a_grid(choice):
-    table = compare_sets(choice, 5e-5, 30)
+@pytest.fixture(scope="module")
+def compared(choice):
+    """Sixty arms measured at each set of poses."""
+    return compare_sets(choice, NOISE, 60)
+
+
+def test_chosen_poses_beat_random_ones_and_a_grid(compared):
+    table = compared
     for other in ("random", "grid"):
         assert share_won(table, "parameter_rms_mm", other) > 0.6
     medians = table.groupby("set")[["O1", "parameter_rms_mm"]].median()
@@ -78,10 +86,9 @@ def test_without_noise_every_set_finds_the_parameters(choice):
     assert compare_sets(choice, 0.0, 2)["parameter_worst_mm"].max() < 1e-5
 
 
-def test_linear_theory_predicts_the_simulated_scatter(choice):
-    noise = 5e-5
-    theory = predicted_errors(choice, noise, {"chosen": choice.table})
-    scatter = compare_sets(choice, noise, 60).query("set == 'chosen'")["parameter_rms_mm"]
+def test_linear_theory_predicts_the_simulated_scatter(choice, compared):
+    theory = predicted_errors(choice, NOISE, {"chosen": choice.table})
+    scatter = compared.query("set == 'chosen'")["parameter_rms_mm"]
     p = choice.targets
     sizes = np.array([size / term.si for size, (_, term) in zip(p.sizes, p.terms, strict=True)])[~p.is_frame]
     expected = np.sqrt(np.mean((theory["sd_chosen"] / sizes) ** 2))

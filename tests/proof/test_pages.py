@@ -35,7 +35,11 @@ def worlds(count):
         yield world(**ending, fresh=number % 2 == 0, name=f"world-{number:03d}", off=float(rng.uniform(0.4, 0.6)))
 
 
-@pytest.mark.parametrize("count", [1, 36])
+@pytest.mark.parametrize(
+    "count",
+    # of a dozen in the quick run, with names that are hostile: tests/report/test_hostile_proofs.py
+    [1, pytest.param(36, marks=pytest.mark.long)],
+)
 def test_every_figure_and_the_page_can_be_made(count, tmp_path):
     for name, table in tables(score(worlds(count))).items():
         write_table(tmp_path / f"{name}.csv", table)

@@ -92,7 +92,11 @@ def test_every_set_names_its_files_and_how_they_are_read(folder: Path) -> None:
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("folder", SETS, ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "folder",
+    [pytest.param(path, marks=[pytest.mark.long] * (path.name == "panda-motion")) for path in SETS],
+    ids=lambda path: path.name,
+)
 def test_a_real_set_converts_to_the_reference_table_within_its_rounding(folder: Path, tmp_path: Path) -> None:
     if not SHARED.is_dir():
         pytest.skip("../shared/motions is not here, so there is nothing to compare with")

@@ -17,7 +17,9 @@ SHARED = ROOT.parent / "shared" / "recordings"
 
 
 @pytest.mark.shared
-@pytest.mark.parametrize("name", ["ur10-ipa", "iiwa7-payload", "ma1400-leica", "irb120-offsets"])
+@pytest.mark.parametrize(
+    "name", [pytest.param("ur10-ipa", marks=pytest.mark.long), "iiwa7-payload", "ma1400-leica", "irb120-offsets"]
+)
 def test_a_real_set_converts_to_the_reference_table_within_its_rounding(name, tmp_path):
     if not SHARED.is_dir():
         pytest.skip("../shared/recordings is not here, so there is nothing to compare with")

@@ -45,11 +45,14 @@ def test_the_page_of_the_proof(tmp_path):
     made = [hostile(each, f"{EVIL}{n}") for n, each in enumerate(worlds(12))]
     for name, table in rates_of_proof(score_of_proof(made)).items():
         write_table(tmp_path / f"{name}.csv", table)
-    for name, figure in draw_proof(tmp_path).items():
+    drawn = draw_proof(tmp_path)
+    for name, figure in drawn.items():
         save_figure(figure, tmp_path / name, formats=("svg",))
     write_proof_page(tmp_path / "report.html", tmp_path, tmp_path, {"proof_seed": 7, "drawn": True}, EVIL)
     page, pictures = obeys_nothing((tmp_path / "report.html").read_text())
-    assert pictures > 0
+    assert pictures == len(drawn) > 0
+    assert "too few cases" in page.text
+    assert f"ValueError: {EVIL}" in page.text
     assert page.text.count(EVIL) > len(made)
 
 

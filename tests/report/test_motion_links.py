@@ -2,18 +2,15 @@
 
 from pathlib import Path
 
-from armscope.motion.pipeline import diagnose_motion
-from armscope.recordings.motions import as_motions
 from armscope.report.figures.twist import draw_twist
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sections.motion_links import links_of_motion
-from tests.motion.moving import robot
-from tests.motion.two_inertias import recorded, spring
+from tests.motion.two_inertias import wound_up
 
 
 def test_a_drive_that_winds_up_has_a_card_and_a_figure(tmp_path: Path) -> None:
-    found = diagnose_motion(robot(), as_motions(recorded(spring(3000.0), 3, 4), "motions.csv", 3))
+    found = wound_up()
     page = write_motion_report(found, "motions.csv", tmp_path).read_text(encoding="utf-8")
     (cause,) = (each for each in found.verdict.links[0].causes if not each.minor)
     assert cause.confirm in page

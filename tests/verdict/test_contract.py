@@ -12,7 +12,7 @@ import jsonschema
 import numpy as np
 import pytest
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from armscope.core.inputs import InputError
@@ -122,6 +122,7 @@ words = st.text(max_size=12)
 sizes = st.one_of(st.just(float("nan")), st.floats(-1e6, 1e6))
 
 
+@settings(max_examples=40)
 @given(
     noise=sizes,
     mismatch=st.sampled_from([None, True, False]),

@@ -64,7 +64,9 @@ def test_all_context_is_read_as_what_it_was_in_the_session(tmp_path):
         assert np.abs(read_back - was[arm.recorded]).max() <= within
 
 
-@pytest.mark.parametrize("arm", ["parallelogram-120kg", "six-axis", "seven-axis"])
+@pytest.mark.parametrize(
+    "arm", ["parallelogram-120kg", *(pytest.param(arm, marks=pytest.mark.long) for arm in ("six-axis", "seven-axis"))]
+)
 def test_the_same_spec_gives_the_same_bytes_and_another_seed_others(arm, tmp_path):
     effects = [OFFSET, SOFT]
     homes = [

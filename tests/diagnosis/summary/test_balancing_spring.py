@@ -41,7 +41,7 @@ def with_wave_of_joint_2(lifts_nm: float, ahead: float) -> tuple[Arm, Recordings
     return arm, replace(still, positions=still.positions + lever * turn[:, None])
 
 
-@pytest.mark.parametrize("lifts_nm", [300.0, 600.0])
+@pytest.mark.parametrize("lifts_nm", [300.0, pytest.param(600.0, marks=pytest.mark.long)])
 def test_a_spring_that_nobody_stated_may_be_one(lifts_nm: float) -> None:
     wave = wave_found(*with_wave_of_joint_2(lifts_nm, ahead=0.0))
     assert wave.named_as == "region"
@@ -50,7 +50,7 @@ def test_a_spring_that_nobody_stated_may_be_one(lifts_nm: float) -> None:
     assert wave.confirm.startswith("See first whether a spring")
 
 
-@pytest.mark.parametrize("ahead", [np.pi, np.pi / 2, -np.pi / 2])
+@pytest.mark.parametrize("ahead", [np.pi, np.pi / 2, pytest.param(-np.pi / 2, marks=pytest.mark.long)])
 def test_a_wave_that_adds_to_the_give_or_lies_across_it_is_no_spring(ahead: float) -> None:
     wave = wave_found(*with_wave_of_joint_2(600.0, ahead))
     assert wave.named_as == "effect"

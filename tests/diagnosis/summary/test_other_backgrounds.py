@@ -14,6 +14,7 @@ from tests.diagnosis.planted import one_run, planted, recorded
 from tests.physics.scenes import arm_named
 from tests.seeds import seeds
 
+QUICK = Settings(resamples=0, cross_validation=False)
 TRUE = {"joint 2": 5e-6, "joint 4": 5e-6}
 """rad/(N m)."""
 
@@ -28,7 +29,7 @@ def found_where_only_two_joints_move(seed: int) -> list[FoundEffect]:
     angles[:, 0], angles[:, 1] = rng.uniform(-1.5, 1.5, 150), rng.uniform(-1.2, 1.2, 150)
     table = replace(table, motor_angles=angles, payload=np.zeros(150), temperature=None, time=None, approach=None)
     springs = {("joint_compliance", place): [value] for place, value in TRUE.items()}
-    return list(diagnose(arm, recorded(arm, table, springs, 0.03, seed), Settings(resamples=0)).effects)
+    return list(diagnose(arm, recorded(arm, table, springs, 0.03, seed), QUICK).effects)
 
 
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
@@ -51,7 +52,7 @@ def test_its_interval_owns_what_springs_elsewhere_might_do(monkeypatch: pytest.M
 
 def test_where_the_rows_tell_them_apart_it_stays_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
-    (owned,) = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects
+    (owned,) = diagnose(arm, table, QUICK).effects
     monkeypatch.setattr(judgement, "doubts", lambda search, best: {})
-    (sure,) = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects
+    (sure,) = diagnose(arm, table, QUICK).effects
     assert owned.parameters[0].stderr < 1.2 * sure.parameters[0].stderr

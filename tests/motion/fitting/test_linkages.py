@@ -28,7 +28,7 @@ def asked(kind: str, n: int, seed: int) -> tuple[World, MotionDiagnosis]:
 
 
 @pytest.mark.parametrize("kind", ["even", pytest.param("near", marks=pytest.mark.long), "over"])
-@pytest.mark.parametrize("seed", seeds(2, 1, 3))
+@pytest.mark.parametrize("seed", seeds(4, 1, 2, 3))
 def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> None:
     (world, found), spring = asked(kind, 3 + seed % 4, seed), SPRINGS[kind]
     right, words = said(world, found.verdict)
@@ -47,7 +47,7 @@ def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> No
 
 def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
     """One standard deviation away either way, with all else fitted and the best of the mount's other number."""
-    (world, found), spring = asked("over", 5, 2), SPRINGS["over"]
+    (world, found), spring = asked("over", 3, 4), SPRINGS["over"]
     selected = found.selected
     (number,) = selected.best.candidates
     placed = selected.rows.layout.placed[number]
@@ -72,7 +72,7 @@ def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
 
 
 @pytest.mark.parametrize("kind", ["taut", "harness", pytest.param("end", marks=pytest.mark.long)])
-@pytest.mark.parametrize("seed", seeds(1, 2))
+@pytest.mark.parametrize("seed", seeds(4, 1, 2))
 def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
     world, found = asked(kind, 3 + seed % 4, seed)
     right, words = said(world, found.verdict)
@@ -80,13 +80,13 @@ def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
 
 
 def test_where_nothing_follows_the_angle_no_mount_is_looked_for() -> None:
-    _, found = asked("taut", 4, 1)
+    _, found = asked("taut", 3, 4)
     layout = found.selected.rows.layout
     springs = [n for n, cause in enumerate(layout.placed) if cause.variant == BETWEEN_LINKS]
     cables = {
         layout.placed[n].joints for n in found.selected.best.candidates if layout.placed[n].cause is catalogue.CABLE
     }
-    assert cables == {(2,)}
+    assert cables == {(1,)}
     for number in springs:
         placed, rests = remounted(found.selected, number)
         if placed.joints not in cables:

@@ -10,6 +10,7 @@ from armscope.motion.fitting.selection import _at_rest, starting_weights
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from tests.motion.cured import JOINT, LONG, STATED, Motion, diagnosed
 from tests.motion.moving import Plant, moved, robot
+from tests.seeds import seeds
 
 
 def cable(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
@@ -19,7 +20,7 @@ def cable(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_slow_cause_of_a_short_motion_is_no_noise(seed: int) -> None:
     """It counted for so few rows, as what it left of other motion lasted, that nothing asked for a cause."""
 

@@ -157,8 +157,12 @@ CASES = {
 }
 
 
+AGAIN = ("rubs with the sum", "turns with the sum", "coil spring")
+"""The same card as another's: with the difference, a sign has to be read as well."""
+
+
 @pytest.mark.parametrize("seed", seeds(11, 14))
-@pytest.mark.parametrize("kind", [*CASES])
+@pytest.mark.parametrize("kind", [pytest.param(kind, marks=[pytest.mark.long] * (kind in AGAIN)) for kind in CASES])
 def test_who_adds_what_the_card_says_has_the_torque(kind: str, seed: int) -> None:
     case = CASES[kind]
     (cause,) = diagnosed(STATED, case.planted, seed, case.warm)

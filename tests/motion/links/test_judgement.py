@@ -7,16 +7,14 @@ import pytest
 
 from armscope.inference.search import Search
 from armscope.motion.links.judgement import JudgedTwist, with_links
-from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
+from armscope.motion.pipeline import MotionDiagnosis
 from armscope.motion.summary.rivals import listed_rivals
-from armscope.recordings.motions import as_motions
-from tests.motion.moving import robot
-from tests.motion.two_inertias import recorded, spring
+from tests.motion.two_inertias import wound_up
 
 
 @pytest.fixture(scope="module")
 def found() -> MotionDiagnosis:
-    return diagnose_motion(robot(), as_motions(recorded(spring(3000.0), 3, 4), "motions.csv", 3))
+    return wound_up()
 
 
 def test_a_stiffness_is_known_no_better_than_the_torque(found: MotionDiagnosis) -> None:

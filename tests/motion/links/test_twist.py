@@ -20,7 +20,10 @@ def named(found: MotionDiagnosis) -> list[FoundCause]:
     return [cause for cause in side.causes if not cause.minor]
 
 
-SPRINGS = [(1, 12000.0, 1), pytest.param(2, 12000.0, 2, marks=pytest.mark.long), (3, 3000.0, 3)]
+SPRINGS = [
+    (1, 12000.0, 1),
+    *(pytest.param(*each, marks=pytest.mark.long) for each in ((2, 12000.0, 2), (3, 3000.0, 3))),
+]
 
 
 @pytest.mark.parametrize(("joint", "stiffness", "seed"), SPRINGS)
@@ -69,9 +72,9 @@ def test_a_play_is_no_spring() -> None:
 
 
 def test_a_link_read_late_and_geared_otherwise_winds_up_nowhere() -> None:
-    table = recorded(RIGID, 2)
+    table = recorded(RIGID, 1)
     for _, run in table.groupby("run"):
-        late = np.interp(run.time_s - 0.002, run.time_s, run.q2_link_rad)
-        table.loc[run.index, "q2_link_rad"] = 1.004 * late
+        late = np.interp(run.time_s - 0.002, run.time_s, run.q1_link_rad)
+        table.loc[run.index, "q1_link_rad"] = 1.004 * late
     causes = {cause.effect: cause.parameters[0].value for cause in named(diagnosed(table))}
     assert causes == {"encoder_lag": pytest.approx(0.002, rel=0.02), "gear_ratio": pytest.approx(0.004, rel=0.02)}

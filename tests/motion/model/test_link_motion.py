@@ -5,15 +5,13 @@ from pathlib import Path
 import numpy as np
 
 from armscope.motion.model.file import load_motion_model, save_motion_model
-from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.predicting import torque_table
 from armscope.recordings.motions import as_motions
-from tests.motion.moving import robot
-from tests.motion.two_inertias import recorded, spring
+from tests.motion.two_inertias import recorded, spring, wound_up
 
 
 def test_a_saved_model_foretells_the_link_and_the_torque_of_another_path(tmp_path: Path) -> None:
-    found = diagnose_motion(robot(), as_motions(recorded(spring(3000.0), 3, 1), "motions.csv", 3))
+    found = wound_up()
     save_motion_model(tmp_path / "model.yaml", found.model)
     other = recorded(spring(3000.0), 3, 5, runs=1, noise=0.0)
     blind = as_motions(other.drop(columns=["q3_link_rad"]), "other.csv", 3)

@@ -13,9 +13,10 @@ from armscope.motion.summary.judgement import answer_of, apart_where_useless, he
 from armscope.motion.verdict import FoundCause, UnexplainedTorque
 from armscope.verdict.effects import Parameter
 from tests.motion.moving import ROBOT, moved, robot
+from tests.seeds import seeds
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", seeds(1, 2))
 def test_links_that_are_all_off_a_little_are_not_nothing_missing(seed: int) -> None:
     """No link stands out, so none has a name; but friction and rotors do not say the torque."""
     links: list[dict[str, Any]] = ROBOT["links"]  # type: ignore[assignment]

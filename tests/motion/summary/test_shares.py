@@ -47,7 +47,7 @@ def explained_by(selected: SelectedCauses, without: Array) -> float:
     return float(b @ np.linalg.solve(G + np.diag(ridge), b))
 
 
-@pytest.mark.parametrize("share", [1.0, 2.0])
+@pytest.mark.parametrize("share", [1.0, pytest.param(2.0, marks=pytest.mark.long)])
 def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
     """A small cause with a name is not left alone beside an error that falls for another reason."""
     found = diagnose_motion(robot(), moved(robot(**off(share)), 1, pulled, noise=0.005))

@@ -40,14 +40,20 @@ def selected() -> SelectedCauses:
     return select_causes(layout, train, how, ("path 1", "path 2"), lambda text, share: None, first.model)
 
 
+@pytest.fixture(scope="module")
+def stands(selected: SelectedCauses) -> SelectedCauses:
+    """What of it can stand."""
+    return tenable(selected, 200.0)
+
+
 def names(selected: SelectedCauses) -> set[tuple[str, str]]:
     return {selected.space.candidates[number].key for number in selected.best.candidates}
 
 
-def test_friction_below_zero_is_no_friction(selected: SelectedCauses) -> None:
+def test_friction_below_zero_is_no_friction(selected: SelectedCauses, stands: SelectedCauses) -> None:
     assert ("coulomb_friction", "joint 2") in names(selected)
-    assert ("coulomb_friction", "joint 2") not in names(tenable(selected, 200.0))
-    assert ("unknown", "joint 2") in names(tenable(selected, 200.0))
+    assert ("coulomb_friction", "joint 2") not in names(stands)
+    assert ("unknown", "joint 2") in names(stands)
 
 
 def test_what_comes_in_place_of_a_struck_name_foretells_motion(
@@ -72,9 +78,8 @@ def test_what_comes_in_place_of_a_struck_name_foretells_motion(
 
 
 def test_a_name_of_masses_that_is_hardly_likelier_than_none_goes_and_nothing_takes_its_place(
-    selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch
+    stands: SelectedCauses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stands = tenable(selected, 200.0)
     mass = next(n for n, each in enumerate(stands.rows.layout.placed) if each.cause.name == "link_mass")
     more = dataclasses.replace(stands.best.chosen[0], candidate=mass)
     both = dataclasses.replace(
@@ -89,9 +94,8 @@ def test_a_name_of_masses_that_is_hardly_likelier_than_none_goes_and_nothing_tak
 
 @pytest.mark.parametrize(("nats", "untenable", "taken"), [(3.1, (), True), (2.9, (), False), (3.1, (0,), False)])
 def test_another_name_of_masses_takes_the_place_of_one_that_goes_if_it_is_likely_and_can_stand(
-    selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch, nats: float, untenable: tuple[int, ...], taken: bool
+    stands: SelectedCauses, monkeypatch: pytest.MonkeyPatch, nats: float, untenable: tuple[int, ...], taken: bool
 ) -> None:
-    stands = tenable(selected, 200.0)
     placed = stands.rows.layout.placed
     mass = next(n for n, each in enumerate(placed) if each.cause.name == "link_mass")
     inertia = next(n for n, each in enumerate(placed) if each.cause.name == "link_inertia")
