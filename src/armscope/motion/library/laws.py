@@ -62,16 +62,17 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
-    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
+def _power(
+    m: Moment, joints: tuple[int, ...], width: float, power: float, viscous: float, dry: float, stated: float
+) -> Array:
+    """A power of the speed, less the viscous and dry friction that are nearest to it.
 
-    So dry and viscous friction that are fitted stay what a fit without the curve would say.
+    So dry and viscous friction that are fitted stay what a fit without the curve would say. Where viscous friction is
+    ``stated``, what it is off is the second column: a curve is another one than the straight line that was stated.
     """
-    speed, turned = _speed(m, joints), _side(m, joints, width)
-    of_square, of_cube = nearest[:2], nearest[2:]
-    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
-    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
-    return np.column_stack([square, cube])
+    speed = _speed(m, joints)
+    bent = np.sign(speed) * np.abs(speed) ** power - viscous * speed - dry * _side(m, joints, width)
+    return np.column_stack([bent, speed]) if stated else bent
 
 
 def warmth(m: Moment, joint: int) -> Array:
@@ -256,7 +257,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "absolute speed": lambda m, joints: np.abs(_speed(m, joints)),
     "stribeck": _stribeck,
     "load friction": _load_side,
-    "powers of speed": _powers,
+    "power of speed": _power,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": _read,

@@ -94,13 +94,6 @@ class _Joint:
         return float(sharp_width(self.seen.arm)[self.number])
 
     @property
-    def nearest(self) -> tuple[float, ...]:
-        """Viscous and dry friction, where they are not stated, nearest to powers of the speeds at which it moves."""
-        speeds = self.seen.speeds[self.number]
-        dry, viscous = np.isnan(self.seen.arm.stated_background[self.number, 1:3])
-        return _nearest_to_powers(speeds[speeds > self.width], (viscous, dry))
-
-    @property
     def both_ways(self) -> bool:
         """Whether it moves fast enough either way to show friction."""
         slow = LIBRARY.slow * self.width
@@ -120,20 +113,21 @@ class _Joint:
         return self.cause(cause, driver, names, f"curve over {driver}", *limits, knots, is_curve=True, **more)
 
 
-def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ...]:
-    """Viscous and dry friction that are nearest to square and cube at some speeds, as `powers of speed` takes them.
+def _nearest_to(power: float, speeds: Array, fitted: Sequence[bool]) -> tuple[float, float]:
+    """Viscous and dry friction that are nearest to a power of the speed, as `power of speed` takes them.
 
     Args:
+        power: of it.
         speeds: (N,) rad/s.
-        fitted: whether viscous and dry friction are; of a stated one the powers take nothing off, or a curve alone
-            would be told as a curve and two departures from what is stated.
+        fitted: whether viscous and dry friction are; of a stated one a power takes nothing off, or a curve alone would
+            be told as a curve and two departures from what is stated.
 
     Returns:
-        Viscous and dry friction of the square, then of the cube.
+        Viscous and dry friction.
     """
     ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)]) * np.array(fitted)
-    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
-    return tuple(map(float, found.T.ravel()))
+    viscous, dry = np.linalg.lstsq(ordinary, np.abs(speeds) ** power, rcond=None)[0]
+    return float(viscous), float(dry)
 
 
 def _friction(at: _Joint) -> Iterator[PlacedCause]:
@@ -148,8 +142,21 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
         more["expected"] = (1.0, LIBRARY.between_speeds)
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
-    powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
-    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *at.nearest)
+    yield from _curved(at)
+
+
+def _curved(at: _Joint) -> Iterator[PlacedCause]:
+    """Friction that grows with a power of the speed, and not with the speed itself."""
+    dry, viscous = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
+    speeds = at.seen.speeds[at.number]
+    speeds = speeds[speeds > at.width]
+    for power in LIBRARY.powers:
+        bent = ("bent", f"{at.torque} s^{power:.2g}/{at.unit}^{power:.2g}")
+        names = (bent, ("viscous", f"{at.torque} s/{at.unit}"))[: 1 + viscous]
+        law = (at.sharp, power, *_nearest_to(power, speeds, (not viscous, not dry)), viscous)
+        more: dict[str, Any] = {"variant": f"{power:.2g}", "scanned": (("power", "", power),)}
+        more["multiplicity"] = len(LIBRARY.powers)
+        yield at.cause(catalogue.VISCOUS_CURVE, "speed", names, "power of speed", *law, **more)
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
