@@ -31,18 +31,27 @@ class Case:
 
 
 def near_rest(cure: str) -> Torque:
-    height, speed, *_ = told(cure, "model: ")
-    assert "× exp(-(speed / (" in cure
-    assert cure.endswith("× sign of the speed.")
-    return at_joint(lambda q, v, a, T: height * np.exp(-((v / speed) ** 2)) * np.sign(v))
+    if "× 2 x" in cure:
+        height, wider, speed = [*told(cure.replace("2 x", ""), "model: ")[:2], *told(cure, "x is (speed / (")[:1]]
+    else:
+        (height, speed, *_), wider = told(cure, "model: "), 0.0
+        assert "× exp(-(speed / (" in cure
+        assert cure.endswith("× sign of the speed.")
+    x = lambda v: (v / speed) ** 2
+    return at_joint(lambda q, v, a, T: (height + wider * 2 * x(v)) * np.exp(-x(v)) * np.sign(v))
 
 
 def curve(cure: str) -> Torque:
-    written = re.search(r"× \|speed\|\^([\d.]+) × sign of the speed", cure)
+    written = re.search(r" × ln\(\|speed\| / ([\d.]+)\)\) × \|speed\|\^([\d.]+) × sign of the speed", cure)
     assert written
-    bent, viscous, dry = [*told(cure, "friction "), 0.0, 0.0][:3]
+    usual, power = map(float, written.groups())
+    bent, steeper, _, viscous, dry = [*told(cure, "friction "), 0.0, 0.0][:5]
     return at_joint(
-        lambda q, v, a, T: bent * np.abs(v) ** float(written[1]) * np.sign(v) + viscous * v + dry * np.sign(v)
+        lambda q, v, a, T: (
+            np.sign(v) * (bent + steeper * np.log(np.abs(v) / usual)) * np.abs(v) ** power
+            + viscous * v
+            + dry * np.sign(v)
+        )
     )
 
 

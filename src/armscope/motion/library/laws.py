@@ -62,16 +62,33 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
+def power_of_speed(speed: Array, power: float, usual: float) -> Array:
+    """A power of the speed, and its change with that power: a scanned power is never quite the true one.
+
+    Args:
+        speed: (N,) rad/s.
+        power: of its size.
+        usual: speed at which the second is none, rad/s.
+
+    Returns:
+        (N, 2), of the speed's sign.
+    """
+    size = np.abs(speed)
+    grown = np.sign(speed) * size**power
+    return np.column_stack([grown, grown * np.log(np.maximum(size, np.finfo(float).tiny) / usual)])
+
+
 def _power(
-    m: Moment, joints: tuple[int, ...], width: float, power: float, viscous: float, dry: float, stated: float
+    m: Moment, joints: tuple[int, ...], width: float, power: float, usual: float, stated: float, *nearest: float
 ) -> Array:
-    """A power of the speed, less the viscous and dry friction that are nearest to it.
+    """A power of the speed and its change, less the viscous and dry friction that are nearest to each.
 
     So dry and viscous friction that are fitted stay what a fit without the curve would say. Where viscous friction is
-    ``stated``, what it is off is the second column: a curve is another one than the straight line that was stated.
+    ``stated``, what it is off is the last column: a curve is another one than the straight line that was stated.
     """
     speed = _speed(m, joints)
-    bent = np.sign(speed) * np.abs(speed) ** power - viscous * speed - dry * _side(m, joints, width)
+    ordinary = np.column_stack([speed, _side(m, joints, width)])
+    bent = power_of_speed(speed, power, usual) - ordinary @ np.reshape(nearest, (2, 2)).T
     return np.column_stack([bent, speed]) if stated else bent
 
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from armscope.motion.library.clauses import amount
 from armscope.motion.library.linkage import length
 from armscope.motion.library.remedies import Fitted
@@ -27,13 +29,15 @@ def near_rest(fitted: Fitted) -> str:
 
 def curve_of_speed(fitted: Fitted) -> str:
     """A power of the speed, less the ordinary friction that is nearest to it: the joint's line has that."""
-    bent, (_, power, *nearest, _) = fitted.numbers["bent"], fitted.of_law
+    _, power, usual, _, *nearest = fitted.of_law
+    sizes = [fitted.numbers[name].value for name in ("bent", "steeper")]
     off = fitted.numbers["viscous"].value if "viscous" in fitted.numbers else 0.0
-    viscous, dry = (-bent.value * each for each in nearest)
+    viscous, dry = (-float(np.dot(sizes, each)) for each in np.reshape(nearest, (2, 2)).T)
     terms = ((viscous + off, "speed"), (dry, "sign of the speed"))
     told = " ".join(f"{_plain(size)} × {what}" for size, what in terms if size)
-    grown = f"{_plain(bent.value)} × |speed|^{power:.3g} × sign of the speed"
-    unit = bent.unit.partition(" s")[0]
+    bent, steeper = map(_plain, sizes)
+    grown = f"({bent} {steeper} × ln(|speed| / {usual:.4g})) × |speed|^{power:.4g} × sign of the speed"
+    unit = fitted.numbers["bent"].unit.partition(" s")[0]
     return f"{fitted.in_general}: beside its dry and viscous friction {grown} {told}, in {unit}, SI."
 
 
