@@ -100,7 +100,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
         elif placed.cause is catalogue.STRIBECK:
             least[0] = 0.0
         elif placed.cause is catalogue.VISCOUS_CURVE and _no_power(selected, number):
-            yield number
+            least[:] = np.inf
         elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
