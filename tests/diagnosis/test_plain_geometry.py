@@ -1,10 +1,9 @@
-"""What can't be told from a link's own error is told as that, and a zero stands beside what follows its joint's angle."""
+"""A link's own error, what can't be told from it, and a zero beside what follows its joint's angle."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
