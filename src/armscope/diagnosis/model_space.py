@@ -37,6 +37,7 @@ from armscope.physics.backgrounds import (
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import BASE_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
+from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.soft_start import SOFT_START
 from armscope.physics.transmission import BACKLASH
 
@@ -146,8 +147,8 @@ def _candidates(
     removed_with = _removed_with_drifts(placed, frozenset(by_location.get("base", ())))
     candidates = []
     for number, p in enumerate(placed):
-        beside = (other for other in by_location[p.location] if other != number)
-        excludes = frozenset(other for other in beside if clash(p, placed[other]))
+        beside_it = [other for other in by_location[p.location] if other != number]
+        excludes = frozenset(other for other in beside_it if clash(p, placed[other]))
         curve = p.parametrisation == "curve"
         candidates.append(
             Candidate(
@@ -171,8 +172,9 @@ def _candidates(
                 special_cases=frozenset(
                     n for n in excludes if curve and placed[n].parametrisation != "curve" and _competes(placed[n])
                 ),
-                # what follows a joint's own angle is one, as a rule; an offset and a compliance are a common pair
+                # what follows a joint's own angle is one, as a rule, beside its zero; of its load, two
                 side_by_side=1 if p.variant == "angle" else 2,
+                common=frozenset(n for n in beside_it if p.variant == "angle" and placed[n].effect is JOINT_OFFSET),
                 refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
                 removed_with=removed_with.get(number, frozenset()),
                 summed=_adding_up(layout, p, forms.get(p.key, ())),

@@ -14,6 +14,7 @@ import numpy as np
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes
 from armscope.diagnosis.model_space import EffectSpace
+from armscope.diagnosis.plain_geometry import as_plain_geometry
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis, evaluate
@@ -45,7 +46,7 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
         promoted = _better_placed(edits, _promoted(edits.problem, told))
         weakest = edits.weakest(promoted)
         if weakest is None:
-            return promoted
+            return as_plain_geometry(edits, space, promoted)
         hypothesis = _without(edits, hypothesis, promoted, weakest)
 
 

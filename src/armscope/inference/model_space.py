@@ -46,6 +46,7 @@ class Candidate:
         requires: it does nothing without one of these; None where it stands by itself.
         special_cases: candidates that the curve contains.
         side_by_side: how many special cases of the curve may well stand side by side.
+        common: of these, what is common anyway, and is not counted.
         refines: the candidate of which this is a finer form.
         removed_with: candidates with which, one at a time, it is taken out, too.
         summed: columns of a background that add up to its own, where that has them in place of its own.
@@ -70,6 +71,7 @@ class Candidate:
     requires: frozenset[int] | None = None
     special_cases: frozenset[int] = NONE
     side_by_side: int = 1
+    common: frozenset[int] = NONE
     refines: int | None = None
     removed_with: frozenset[int] = NONE
     summed: frozenset[int] = NONE
@@ -283,7 +285,8 @@ class ModelSpace:
         """By how many candidates some curve's special cases exceed what is common side by side."""
         known = self._excess.get(candidates)
         if known is None:
-            known = max((len(c.special_cases & candidates) - c.side_by_side for c in self._curves), default=0)
+            beside = (len((c.special_cases - c.common) & candidates) - c.side_by_side for c in self._curves)
+            known = max(beside, default=0)
             self._excess[candidates] = known
         return known
 

@@ -192,6 +192,11 @@ class FormRules(Constants):
         "convention: Hayati and Mirmirani (1985) for nearly parallel axes; the number: judgement",
         unit="rad",
     )
+    varying_load: float = constant(
+        0.05,
+        "of a moment across a bearing that must change from row to row, to show that the bearing tilts under it",
+        "judgement: below, what changes is less than noise beside all but the largest tilts",
+    )
     rocker_step_deg: float = constant(
         3.0,
         "between directions of the rocker on the forearm that are tried where robot.yaml does not state them",

@@ -140,9 +140,16 @@ def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
-    for j in range(1, arm.n_joints + 1):
-        tilt = _tilt(scene, f"joint {j}")
-        yield Placed(BEARING_COMPLIANCE, f"joint {j}", (tilt,), (1.0,), f"moment across joint {j}")
+    for place in tilting_joints(scene):
+        yield Placed(BEARING_COMPLIANCE, place, (_tilt(scene, place),), (1.0,), f"moment across {place}")
+
+
+def tilting_joints(scene: Scene) -> Iterator[str]:
+    """Joints whose moment across varies: a tilt that is the same in all rows is an error of the links beside it."""
+    for place in (f"joint {j}" for j in range(1, scene.arm.n_joints + 1)):
+        across = scene.moment(place)[:, :2]
+        if np.linalg.norm(np.std(across, axis=0)) > FORM.varying_load * np.sqrt(np.mean(np.sum(across**2, axis=1))):
+            yield place
 
 
 def _tilt(scene: Scene, location: str) -> Term:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from armscope.physics.effect import Direction, Driver, Placed, Product, term
-from armscope.physics.elastic import BEARING_COMPLIANCE, tilt_per_moment
+from armscope.physics.elastic import BEARING_COMPLIANCE, tilt_per_moment, tilting_joints
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -26,14 +26,13 @@ def uneven_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         recordings: the rows.
 
     Yields:
-        One per joint, two values in rad/(N m): the compliance about x is the mean and the difference, about y the mean
-        less the difference.
+        One per joint whose load varies, two values in rad/(N m): the compliance about x is the mean and the
+        difference, about y the mean less the difference.
     """
     if not arm.has_masses:
         return
     scene = Scene(arm, recordings)
-    for j in range(1, arm.n_joints + 1):
-        place = f"joint {j}"
+    for place in tilting_joints(scene):
         about_x, about_y = (Direction(place, axis) for axis in ("rx", "ry"))
         under_x, under_y = (Driver("moment", (place, n)) for n in (0, 1))
         apart = (Product(about_x, under_x), Product(about_y, under_y, -1.0))

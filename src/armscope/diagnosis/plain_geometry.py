@@ -1,0 +1,49 @@
+"""A link's own error in place of what can't be told from it: a load that hardly varies, a wobble hardly turned.
+
+A bearing that tilts under a load that is the same in all poses is a link that is twisted. It pays for one number where
+a link pays for all of its row, and so comes first although it fits no better. Every arm has errors of its links, and
+the corrected row takes the tool where it should go in either case; a new bearing does in one.
+"""
+
+from __future__ import annotations
+
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.inference.edits import Edits
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.problem import SelectedEffect
+from armscope.physics.elastic import BEARING_COMPLIANCE, LINK_BENDING
+from armscope.physics.geometric import AXIS_WOBBLE, LINK_GEOMETRY
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
+
+LIKE_A_LINK = (BEARING_COMPLIANCE, LINK_BENDING, AXIS_WOBBLE)
+"""What turns a link's frame against its neighbour's, as an error of the link does."""
+
+
+def as_plain_geometry(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
+    """The hypothesis with a link's constant errors in place of each effect that explains the rows no better.
+
+    Args:
+        edits: of the search.
+        space: which effect each candidate is.
+        hypothesis: named.
+
+    Returns:
+        The hypothesis with those names.
+    """
+    links = {n for n, placed in enumerate(space.placed) if placed.effect is LINK_GEOMETRY}
+    others = set(range(len(space.placed))) - links
+    for effect in [c for c in hypothesis.chosen if space.placed[c.candidate].effect in LIKE_A_LINK]:
+        instead = _as_good(edits, hypothesis, effect, others)
+        hypothesis = hypothesis if instead is None else instead
+    return hypothesis
+
+
+def _as_good(edits: Edits, hypothesis: Hypothesis, effect: SelectedEffect, others: set[int]) -> Hypothesis | None:
+    """With the link that comes nearest, if rows tell it from the effect at less than odds of 20 to 1."""
+    held = edits.holding(edits.candidate(effect.candidate).held)
+    base = held.without(hypothesis, [effect.candidate])
+    for other in held.additions(base, 1, others):
+        worse = (other.rss - hypothesis.rss) / (2 * hypothesis.noise**2)
+        if worse < INDISTINGUISHABLE_NATS:
+            return edits.evaluated(other.chosen, hypothesis)
+    return None
