@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import multivariate_normal, norm
@@ -105,7 +107,7 @@ def test_a_predicted_loss_is_the_loss(setting: tuple[Problem, np.ndarray, np.nda
     chosen = numbers(problem, ("joint_offset", "joint 3"), ("gear_ratio", "joint 4"), ("link_geometry", "link 2"))
     for background in (PERFECT, sizes(4, 2, 1)):
         whole = evaluate(problem, chosen, background, 0.05)
-        fixed = Problem(**{**vars(problem), "least_noise": whole.noise * 1.5})
+        fixed = replace(problem, least_noise=whole.noise * 1.5)
         whole = evaluate(fixed, chosen, background, fixed.least_noise)
         lost = removal_log_bayes_factors(fixed, whole)
         for number in range(len(chosen)):

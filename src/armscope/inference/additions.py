@@ -160,7 +160,8 @@ def addition_scores(
         if not len(inside):
             continue
         columns, widths = columns[inside], widths[:, inside]
-        D, r = rest.of(products[inside], columns) / hypothesis.noise**2, rest.b[columns] / hypothesis.noise**2
+        D, r = rest.of(products[inside], columns), rest.b[columns] / hypothesis.noise**2
+        D /= hypothesis.noise**2
         if wanted is not None and columns.shape[1] > 1:
             # a gain grows with the prior's width; what it costs in volume is left out
             most = _likelier(problem, hypothesis, quadratic_and_logdet(D, r, widths[-1:])[0])[0] - paid[members[inside]]

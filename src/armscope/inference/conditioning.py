@@ -47,11 +47,12 @@ class ConditionedColumns:
     def of(self, products: Array, at: Indices) -> Array:
         """The same where the sums (m, c, c) before anything was taken are known."""
         taken = self.taken[at]
-        own = products - taken @ np.swapaxes(taken, 1, 2)
+        own = taken @ taken.transpose(0, 2, 1)
+        np.subtract(products, own, out=own)
         if self.returned is not None:
             returned = self.returned[at]
-            own += returned @ np.swapaxes(returned, 1, 2)
-        return np.asarray(own)
+            own += returned @ returned.transpose(0, 2, 1)
+        return own
 
 
 def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> ConditionedColumns:

@@ -138,21 +138,21 @@ def quadratic_and_logdet(D: Array, r: Array, widths: Array) -> tuple[Array, Arra
     if r.shape[1] == 1:
         widened = 1 + np.maximum(D[:, :, 0], 0.0) * widths**2
         return (pull**2 / widened)[..., 0], np.log(widened)[..., 0]
-    scaled = D * widths[..., :, None] * widths[..., None, :]
     try:
-        return _factorised(scaled, pull)
+        return _factorised(D, pull, widths)
     except np.linalg.LinAlgError:  # of a noise near nothing: rounding makes the smallest eigenvalues negative
-        eigenvalues, vectors = np.linalg.eigh(scaled)
+        eigenvalues, vectors = np.linalg.eigh(D * widths[..., :, None] * widths[..., None, :])
         widened = 1 + np.maximum(eigenvalues, 0.0)
         u2 = np.einsum("smij,smi->smj", vectors, pull) ** 2
         return np.sum(u2 / widened, axis=2), np.sum(np.log(widened), axis=2)
 
 
-def _factorised(scaled: Array, pull: Array) -> tuple[Array, Array]:
+def _factorised(D: Array, pull: Array, widths: Array) -> tuple[Array, Array]:
     """By a factorisation of each block (sizes, m, c, c); with the pull as one more row it holds factor^-1 pull, too."""
     c = pull.shape[2]
-    bordered = np.zeros((*pull.shape[:2], c + 1, c + 1))
-    bordered[:, :, :c, :c] = scaled
+    bordered = np.empty((*pull.shape[:2], c + 1, c + 1))
+    scaled = np.multiply(D, widths[..., :, None], out=bordered[:, :, :c, :c])
+    scaled *= widths[..., None, :]
     bordered.reshape(*pull.shape[:2], -1)[:, :, : c * (c + 1) : c + 2] += 1
     bordered[:, :, c, :c] = pull  # of a symmetric matrix the lower half is read
     bordered[:, :, c, c] = 1 + 2 * (pull**2).sum(axis=2)  # any number that keeps it positive definite

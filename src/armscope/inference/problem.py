@@ -6,6 +6,7 @@ are scaled to 1 mm RMS at the tool.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -84,6 +85,22 @@ class Problem:
             self.sizes[effect.size] * candidate.prior_scale, candidate.plausible, self.scale[candidate.columns]
         )
 
+    @functools.cached_property
+    def _in_backgrounds(self) -> dict[BackgroundSizes, Array]:
+        """What `variances_in` found so far."""
+        return {}
+
+    def variances_in(self, background: BackgroundSizes) -> Array:
+        """(p,) prior variances of the scaled columns by a background alone, mm^2; computed once."""
+        known = self._in_backgrounds.get(background)
+        if known is None:
+            known = np.zeros(len(self.scale))
+            for family, size in zip(self.space.families, background, strict=True):
+                if size:
+                    known[family.columns] += family.prior_variance(size, self.scale)
+            self._in_backgrounds[background] = known
+        return known
+
     def nearest_size(self, rms: float) -> int:
         """Index of the size nearest to an RMS at the tool; the smallest for what is held at zero."""
         within = np.clip(rms, self.sizes.min(), self.sizes.max())
@@ -144,10 +161,7 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
     Returns:
         (p,) mm^2.
     """
-    prior, space = np.zeros(len(problem.scale)), problem.space
-    for family, size in zip(space.families, background, strict=True):
-        if size:
-            prior[family.columns] += family.prior_variance(size, problem.scale)
+    prior, space = problem.variances_in(background).copy(), problem.space
     for companion in space.companions:
         if companion.joins((effect.candidate for effect in chosen), background):
             family = companion.family
