@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.core.rotations import cross_matrices, turn_onto, turned_by
+from armscope.core.rotations import cross, cross_matrices, turn_onto, turned_by
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-12, 1e-6, 0.99e-4, 1.01e-4, 1e-2, 1.0, 3.1, 3.14159265, 40.0])
@@ -19,6 +19,8 @@ def test_a_rotation_vector_turns_as_scipys_does(size: float) -> None:
 def test_a_cross_matrix_multiplies_as_the_cross_product_does() -> None:
     one, other = np.random.default_rng(1).normal(size=(2, 20, 3))
     assert np.einsum("nij,nj->ni", cross_matrices(one), other) == pytest.approx(np.cross(one, other))
+    np.testing.assert_array_equal(cross(one, other), np.cross(one, other))
+    np.testing.assert_array_equal(cross(one[0], other), np.cross(one[0], other))
 
 
 @pytest.mark.parametrize("flat", [False, True])

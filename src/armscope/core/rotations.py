@@ -30,6 +30,14 @@ def turned_by(vectors: Array) -> Array:
     return turned
 
 
+def cross(one: Array, other: Array) -> Array:
+    """(..., 3) one x other, component by component: on few rows NumPy's own takes several times as long."""
+    crossed = np.empty(np.broadcast_shapes(one.shape, other.shape))
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        crossed[..., i] = one[..., j] * other[..., k] - one[..., k] * other[..., j]
+    return crossed
+
+
 def cross_matrices(vectors: Array) -> Array:
     """(..., 3, 3) matrices that take the cross product of vectors (..., 3) with what they are multiplied by."""
     vectors = np.asarray(vectors, dtype=float)

@@ -11,6 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.core.rotations import cross
 from armscope.core.types import Array
 from armscope.physics.terms import Driver
 from armscope.recordings import Recordings
@@ -142,7 +143,7 @@ class LoadedArm(ABC):
             if offset is None:
                 return force, moment
             off = self.loaded.tool_rotation @ offset
-            return force, moment + np.cross(off, self.payload[:, None] * self.arm.gravity)[:, None, :]
+            return force, moment + cross(off, self.payload[:, None] * self.arm.gravity)[:, None, :]
 
         wrenches: tuple[Array, Array] = self.remember("wrenches", compute)
         return wrenches
@@ -173,7 +174,7 @@ class LoadedArm(ABC):
         def compute() -> Array:
             force, moment = self.wrenches
             if location == "base":
-                return moment[:, 0] + np.cross(self.loaded.joint_origin[:, 0], force[:, 0])
+                return moment[:, 0] + cross(self.loaded.joint_origin[:, 0], force[:, 0])
             j = Location.of(location).index
             return np.asarray(np.einsum("nba,nb->na", self.loaded.joint_rotation[:, j], moment[:, j]))
 
@@ -217,12 +218,12 @@ class LoadedArm(ABC):
             rotation, origin = self.loaded.frame(self.beam_site(link))
             force, moment = self.wrenches
             lever = self.loaded.joint_origin[:, link - 1] - origin
-            at_end = moment[:, link - 1] + np.cross(lever, force[:, link - 1])
+            at_end = moment[:, link - 1] + cross(lever, force[:, link - 1])
             f = np.einsum("nba,nb->na", rotation, force[:, link - 1])
             m = np.einsum("nba,nb->na", rotation, at_end)
             f, m = f - np.outer(f @ e, e), m - np.outer(m @ e, e)
-            turn = length * (m + length / 2 * np.cross(e, f))
-            move = length**2 / 2 * np.cross(m, e) + length**3 / 3 * f
+            turn = length * (m + length / 2 * cross(e, f))
+            move = length**2 / 2 * cross(m, e) + length**3 / 3 * f
             return np.concatenate([move, turn], axis=1)
 
         twist: Array = self.remember(("bending", link), compute)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.core.rotations import cross, cross_matrices
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 from armscope.robot.kinematics import Chain
@@ -30,7 +31,7 @@ def gravity_wrenches(
     masses = arm.masses if masses is None else masses
     beyond = _beyond(masses, 0)[:, None]
     lever = _beyond(masses[:, None] * _centres_of_mass(arm, frames), 1) - beyond * frames.joint_origin
-    force, moment = np.broadcast_to(beyond * arm.gravity, lever.shape), lever @ _across(arm.gravity)
+    force, moment = np.broadcast_to(beyond * arm.gravity, lever.shape), lever @ cross_matrices(arm.gravity)
     if payload is None:
         return force, moment
     of_payload = weight_at_tool(arm, frames, np.nan_to_num(payload))
@@ -52,7 +53,7 @@ def weight_of_link(arm: Arm, frames: Chain, link: int) -> tuple[Array, Array]:
     force, moment = np.zeros((arm.n_joints, 3)), np.zeros(frames.joint_origin.shape)
     force[:link] = weight
     at = slice(link - 1, link)
-    moment[:, :link] = (_centres_of_mass(arm, frames, at) - frames.joint_origin[:, :link]) @ _across(weight)
+    moment[:, :link] = (_centres_of_mass(arm, frames, at) - frames.joint_origin[:, :link]) @ cross_matrices(weight)
     return force, moment
 
 
@@ -68,7 +69,7 @@ def weight_at_tool(arm: Arm, frames: Chain, payload: Array) -> tuple[Array, Arra
         Force (N, 1, 3), N, the same on all joints, and moment (N, n, 3), N m, in base axes at each joint's origin.
     """
     load = payload[:, None, None]
-    return load * arm.gravity, load * ((frames.tool[:, None] - frames.joint_origin) @ _across(arm.gravity))
+    return load * arm.gravity, load * ((frames.tool[:, None] - frames.joint_origin) @ cross_matrices(arm.gravity))
 
 
 def gravity_torques(arm: Arm, frames: Chain, payload: Array | None = None) -> Array:
@@ -99,15 +100,10 @@ def mass_moment_regressor(arm: Arm, frames: Chain) -> Array:
     for link in range(n_joints):
         # torque on joint j = axis_j . (sum over the link's mass of (r - origin_j) x g)
         lever = frames.joint_origin[:, link, None, :] - frames.joint_origin[:, : link + 1]
-        torque[:, : link + 1, link, 0] = np.sum(axes[:, : link + 1] * np.cross(lever, arm.gravity), axis=2)
-        by_moment = np.cross(np.swapaxes(turned[:, link], 1, 2), arm.gravity)
+        torque[:, : link + 1, link, 0] = np.sum(axes[:, : link + 1] * cross(lever, arm.gravity), axis=2)
+        by_moment = cross(np.swapaxes(turned[:, link], 1, 2), arm.gravity)
         torque[:, : link + 1, link, 1:] = np.einsum("nji,nki->njk", axes[:, : link + 1], by_moment)
     return np.asarray(np.einsum("njkp,jm->nmkp", torque, arm.actuation).reshape(n_poses, arm.n_motors, 4 * n_joints))
-
-
-def _across(vector: Array) -> Array:
-    """(3, 3) by which a row is multiplied to be crossed with a vector (3,): much faster than as many cross products."""
-    return np.cross(np.eye(3), vector)
 
 
 def _centres_of_mass(arm: Arm, frames: Chain, links: slice = slice(None)) -> Array:

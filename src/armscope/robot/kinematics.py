@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.location import Location
-from armscope.core.rotations import turned_by
+from armscope.core.rotations import cross, turned_by
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
 
@@ -152,7 +152,7 @@ def joint_jacobian(frames: Chain) -> Array:
     """(N, 3, n) displacement of the tool point by unit turns of the chain's joints, m/rad, in base axes."""
     axes = frames.joint_rotation[..., 2]
     lever = frames.tool[:, None, :] - frames.joint_origin
-    return np.swapaxes(np.cross(axes, lever), 1, 2)
+    return np.swapaxes(cross(axes, lever), 1, 2)
 
 
 def position_jacobian(arm: Arm, frames: Chain) -> Array:
