@@ -62,17 +62,6 @@ def test_a_swarm_setting_refits_but_does_not_measure_again(finished):
     assert {"fit", "residuals", "table2", "figure"} <= rerun
 
 
-@pytest.fixture(scope="module")
-def changed(finished):
-    """What is said of a run in which a tolerance is another one, with its commands."""
-    change = "paper={tolerances: {link_mm: {value: 2.0, source: assumed}}}"
-    return snakemake(finished, "-n", "-p", *(f"results/small/{target}" for target in TARGETS), "--config", change)
-
-
-def test_a_tolerance_measures_again(changed):
-    assert {"measure", "fit"} <= jobs(changed)
-
-
 @pytest.mark.long
 def test_a_deleted_figure_is_redrawn_without_refitting(finished):
     figure = finished / "results/small/paper/figures/fig06.png"
@@ -81,12 +70,6 @@ def test_a_deleted_figure_is_redrawn_without_refitting(finished):
     done = snakemake(finished, *(f"results/small/{target}" for target in TARGETS))
     assert jobs(done) == {"figure"}
     assert figure.read_bytes() == before
-
-
-def test_settings_travel_as_small_files(finished, changed):
-    assert "--settings results/small/settings/fit.json" in changed
-    assert "--settings '{" not in changed
-    assert (finished / "results/small/settings/fit.json").is_file()
 
 
 @pytest.mark.parametrize(
@@ -177,3 +160,23 @@ def test_the_campaign_asks_for_files_that_the_workflow_makes(finished):
     targets = {*campaign.SHORTER, *campaign.TARGETS}
     printed = snakemake(finished, "-n", *targets, "--config", f"fleet={campaign.FLEET}")
     assert all(target in printed for target in targets if not (finished / target).exists())
+
+
+@pytest.fixture(scope="module")
+def changed(finished):
+    """What is said of a run in which a tolerance is another one, with its commands.
+
+    Whoever asks for it stands last: whether paths are within reach is worked out anew for it, and again after it.
+    """
+    change = "paper={tolerances: {link_mm: {value: 2.0, source: assumed}}}"
+    return snakemake(finished, "-n", "-p", *(f"results/small/{target}" for target in TARGETS), "--config", change)
+
+
+def test_a_tolerance_measures_again(changed):
+    assert {"measure", "fit"} <= jobs(changed)
+
+
+def test_settings_travel_as_small_files(finished, changed):
+    assert "--settings results/small/settings/fit.json" in changed
+    assert "--settings '{" not in changed
+    assert (finished / "results/small/settings/fit.json").is_file()

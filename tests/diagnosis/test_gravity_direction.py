@@ -25,7 +25,7 @@ DRIVES = {("joint_compliance", "joint 2"): [4e-7], ("joint_compliance", "joint 3
 
 def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
     """An arm that gives way on a wedge, diagnosed as if it stood upright."""
-    upright = arm_named("six-axis")
+    upright = arm_named("four-axis")
     leaning = turned(upright, np.radians([24.0, 18.0]))
     verdict = diagnose(upright, recorded(leaning, one_run(leaning, 150, 3), DRIVES, 0.02, seed=4), FREE)
     (told,) = (notice.text for notice in verdict.notices if notice.kind == "gravity estimated")
@@ -43,14 +43,14 @@ def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
 
 def test_gravity_that_is_stated_rightly_stays_as_it_is() -> None:
     """What a diagnosis then says, the next test reads."""
-    upright = arm_named("six-axis")
+    upright = arm_named("four-axis")
     table = recorded(upright, one_run(upright, 150, 3), DRIVES, 0.02, seed=4)
     noise = known_noise(upright, table)
     assert estimate_gravity_direction(fit_frames(upright, table), table, noise, False) is None
 
 
 def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, 100, 3), {("joint_offset", "joint 3"): [1e-3]}, 0.02, seed=4)
     verdict = diagnose(arm, table, FREE)
     assert "gravity as stated" in {notice.kind for notice in verdict.notices}
@@ -76,7 +76,7 @@ def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
 
 def test_an_arm_that_hangs_is_not_taken_for_one_that_stands() -> None:
     """Every moment is turned round: what gives way would have to do so against its load."""
-    upright = arm_named("six-axis")
+    upright = arm_named("four-axis")
     hanging = build_arm(upright.description.model_copy(update={"gravity_m_s2": (0.0, 0.0, 9.81)}))
     table = recorded(hanging, one_run(hanging, 150, 3), DRIVES, 0.02, seed=4)
     verdict = diagnose(upright, table, FREE)

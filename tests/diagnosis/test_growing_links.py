@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from armscope.physics.model import predict
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm
+from armscope.verdict.diagnosis import Diagnosis
 
 from ..physics.scenes import arm_named
 from .planted import one_run, recorded
@@ -44,9 +46,15 @@ def session(per_k: Array, seed: int = 5) -> tuple[Arm, Recordings]:
     return arm, replace(table, positions=table.positions + grown(arm, table, per_k))
 
 
-def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() -> None:
+@functools.cache
+def warmed_up() -> tuple[Arm, Recordings, Diagnosis]:
+    """An arm all of whose links grow, and what is said of it."""
     arm, table = session(PER_K)
-    verdict = diagnose(arm, table, QUICK)
+    return arm, table, diagnose(arm, table, QUICK)
+
+
+def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() -> None:
+    arm, _, verdict = warmed_up()
     assert verdict.effects == ()
     thermal = next(family for family in verdict.background_families if family.family == "thermal")
     assert thermal.present
@@ -62,7 +70,7 @@ def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() 
 
 def test_commands_for_the_temperature_of_the_day_take_the_growth_out() -> None:
     """The family's cure, as worded, by an arm whose growth is computed by hand."""
-    arm, table = session(PER_K)
+    arm, table, verdict = warmed_up()
     poses = replace(one_run(arm, 40, seed=91), temperature=np.full(40, 29.0))
     path = pd.DataFrame(poses.motor_angles, columns=[f"q{j}_rad" for j in range(1, 7)])
     path = path.assign(temperature_c=poses.temperature, payload_kg=poses.payload)
@@ -72,7 +80,7 @@ def test_commands_for_the_temperature_of_the_day_take_the_growth_out() -> None:
         reached = forward_kinematics(arm, commands) + grown(arm, replace(poses, motor_angles=commands), PER_K)
         return float(1e3 * np.sqrt(np.nanmean((reached - wanted) ** 2)))
 
-    found = compensate(diagnose(arm, table, QUICK).model, path, table)
+    found = compensate(verdict.model, path, table)
     assert np.isfinite(found.commands).all(axis=1).mean() > 0.9
     assert missed_mm(poses.motor_angles) > 0.1
     assert missed_mm(found.commands) < 0.01

@@ -24,7 +24,7 @@ VALIDATED = Settings(resamples=0)
 
 def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     """Without effects the folds' models are base and tool alone: fitted fold by fold, they predict as well."""
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [4e-7]}, 100, 0.02, seed=3)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [4e-7]}, 100, 0.02, seed=3)
     verdict = diagnose(arm, table, VALIDATED)
     layout = split_rows(table, np.random.default_rng(VALIDATED.seed))
     fold = layout.fold[layout.of_row]
@@ -42,7 +42,7 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
 
 
 def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
-    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
+    arm, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
     table.positions[[4, 50, 77]] += np.array([3e-3, -4e-3, 2e-3])
     held_out = diagnose(arm, table, VALIDATED).held_out
     assert held_out.after < 0.023
@@ -50,7 +50,7 @@ def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
 
 
 def test_sums_by_block_are_those_of_the_round_in_which_the_selection_rests() -> None:
-    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 60, 0.02, seed=8)
+    arm, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-4]}, 60, 0.02, seed=8)
     table.positions[7] += 6e-5  # half a bad shot: what it weighs changes from round to round
     frames, blocks = free_frames(table, False), np.arange(60) % 6
     found = select(
@@ -64,7 +64,7 @@ def test_sums_by_block_are_those_of_the_round_in_which_the_selection_rests() -> 
 
 def test_runs_at_the_same_poses_are_held_out_by_pose() -> None:
     """Whoever learned what is wrong with a pose from two reflectors foretells the third, and no other pose."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     once = one_run(arm, 50, 16)
     own = replace(once.rows(np.arange(150) % 50), run=np.repeat(["1", "2", "3"], 50))
     assert split_rows(own, np.random.default_rng(0)).grouped_by == "configuration"
@@ -74,7 +74,7 @@ def test_runs_at_the_same_poses_are_held_out_by_pose() -> None:
 
 def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:
     """The bases of the runs lie metres apart: only a base fitted to the held-out rows can meet them."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = replace(one_run(arm, 150, 16), run=np.repeat(["1", "2", "3"], 50))
     table = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
     table.positions[50:100] += [1.0, 2.0, -0.5]

@@ -22,7 +22,7 @@ ALONG = np.linspace(0, 1, ROWS)
 
 @pytest.fixture(scope="module")
 def arm() -> Arm:
-    return arm_named("six-axis")
+    return arm_named("four-axis")
 
 
 def moving_base(arm: Arm, course: Array) -> Recordings:

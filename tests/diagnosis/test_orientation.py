@@ -50,14 +50,14 @@ def without(table: Recordings) -> Recordings:
 @pytest.fixture(scope="module")
 def with_turns() -> Diagnosis:
     """Of a joint's zero, points and orientations."""
-    return diagnose(*oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}), QUICK)
+    return diagnose(*oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]}), QUICK)
 
 
 @pytest.fixture(scope="module")
 def without_turns() -> Diagnosis:
-    """Of the same points alone."""
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
-    return diagnose(arm, without(table), QUICK)
+    """Of the same points alone, held out as well."""
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
+    return diagnose(arm, without(table), replace(QUICK, cross_validation=True))
 
 
 def test_a_tool_that_is_turned_anyhow_on_the_flange_is_found_from_nothing() -> None:
@@ -69,16 +69,15 @@ def test_a_tool_that_is_turned_anyhow_on_the_flange_is_found_from_nothing() -> N
 
 @pytest.mark.parametrize("seed", seeds(1, 2, 3, 4))
 def test_a_true_arm_with_noisy_orientations_misses_nothing(seed: int) -> None:
-    verdict = diagnose(*oriented("six-axis", {}, seed=10 * seed), QUICK)
+    verdict = diagnose(*oriented("four-axis", {}, seed=10 * seed), QUICK)
     assert verdict.answer == "nothing missing"
     assert names(verdict) == set()
 
 
-def test_a_turn_counts_beside_a_shift_by_the_ratio_of_their_noises() -> None:
-    verdict = diagnose(*oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}, rows=300), QUICK)
-    seen = verdict.orientations
+def test_a_turn_counts_beside_a_shift_by_the_ratio_of_their_noises(with_turns: Diagnosis) -> None:
+    seen = with_turns.orientations
     assert seen is not None
-    assert seen.rows == 300
+    assert seen.rows == 150
     assert seen.noise_mrad == pytest.approx(TURN_MRAD, rel=0.06)
     assert seen.lever_mm == pytest.approx(1e3 * POINT_MM / TURN_MRAD, rel=0.1)
     assert seen.before_mrad > 1.3 * seen.noise_mrad
@@ -144,7 +143,7 @@ def test_two_springs_about_parallel_axes_are_told_more_sharply_with_turns() -> N
 
 
 def test_orientations_of_some_rows_only_are_used_where_they_are() -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
     table.orientation[::2] = np.nan
     verdict = diagnose(arm, table, QUICK)
@@ -154,7 +153,7 @@ def test_orientations_of_some_rows_only_are_used_where_they_are() -> None:
 
 
 def test_wild_orientations_do_not_drag_the_model() -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
     wild = table.orientation.copy()
     turns = Rotation.from_rotvec([[0.02, 0, 0], [0, 0.5, 0], [0, 0, 3.0]])
@@ -166,7 +165,7 @@ def test_wild_orientations_do_not_drag_the_model() -> None:
 
 
 def test_orientations_in_another_order_are_told_and_left_out(without_turns: Diagnosis) -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
     verdict = diagnose(arm, replace(table, orientation=table.orientation[:, [1, 2, 3, 0]]), QUICK)
     assert [notice.kind for notice in verdict.notices].count("orientations not the arm's") == 1
@@ -175,7 +174,7 @@ def test_orientations_in_another_order_are_told_and_left_out(without_turns: Diag
 
 
 def test_positions_can_be_asked_for_alone(without_turns: Diagnosis) -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     asked = diagnose(arm, table, replace(QUICK, orientation=False))
     assert asked.orientations is None
     assert asked.effects[0].parameters == without_turns.effects[0].parameters
@@ -183,7 +182,7 @@ def test_positions_can_be_asked_for_alone(without_turns: Diagnosis) -> None:
 
 def test_a_tool_put_on_again_turned_is_free_in_every_run() -> None:
     """Its point is where it was: only the orientations show it."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     offset: Wanted = {("joint_offset", "joint 3"): [4e-4]}
     poses = [one_run(arm, 80, seed) for seed in (2, 3)]
     first, second = (
@@ -198,7 +197,7 @@ def test_a_tool_put_on_again_turned_is_free_in_every_run() -> None:
 
 
 def test_a_tool_that_turned_on_the_flange_in_between_is_found_with_its_row() -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]}, rows=200)
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]}, rows=200)
     assert table.orientation is not None
     late = np.arange(200) >= 120
     turn = Rotation.from_rotvec([0.0, 5e-4, 0.0])
@@ -208,18 +207,17 @@ def test_a_tool_that_turned_on_the_flange_in_between_is_found_with_its_row() -> 
     assert names(verdict) == {("joint_offset", "joint 3"), ("tool_shift", "tool")}
 
 
-def test_held_out_orientations_become_as_good_as_their_noise() -> None:
-    arm, table = oriented("six-axis", {("joint_offset", "joint 3"): [1e-3]})
+def test_held_out_orientations_become_as_good_as_their_noise(without_turns: Diagnosis) -> None:
+    arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [1e-3]})
     held_out = diagnose(arm, table, replace(QUICK, cross_validation=True)).held_out
     assert held_out.turn_before > 2 * TURN_MRAD
     assert held_out.turn_after < 1.15 * TURN_MRAD
-    bare = diagnose(arm, without(table).rows(np.arange(40)), replace(QUICK, cross_validation=True))
-    assert np.isnan(bare.held_out.turn_after)
-    assert bare.to_json()["orientation"] is None
+    assert np.isnan(without_turns.held_out.turn_after)
+    assert without_turns.to_json()["orientation"] is None
 
 
 def test_the_model_keeps_how_the_tool_is_turned(with_turns: Diagnosis, tmp_path: Path) -> None:
-    _, table = oriented("six-axis", {("joint_offset", "joint 3"): [4e-4]})
+    _, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     save_model(tmp_path / "model.yaml", with_turns.model)
     again = residuals(load_model(tmp_path / "model.yaml"), table)
     assert 1e3 * np.sqrt(np.mean(again["orientation"] ** 2)) == pytest.approx(TURN_MRAD, rel=0.1)

@@ -204,8 +204,11 @@ def test_the_atlas_shows_links_and_what_is_no_joint(
 
 @pytest.mark.parametrize(
     "ids",
-    # of ids in order it is asked below as well, of a fainter jump
-    [pytest.param("in order", marks=pytest.mark.long), "text", "of a list of poses in another order"],
+    # of ids in order it is asked below as well, of a fainter jump; ids that are no numbers are in rows' order, too
+    [
+        *(pytest.param(ids, marks=pytest.mark.long) for ids in ("in order", "text")),
+        "of a list of poses in another order",
+    ],
 )
 def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> None:
     arm, table = planted("six-axis", {}, 120, 0.02, seed=14)

@@ -57,7 +57,7 @@ def test_a_drift_without_pauses_has_none():
     assert pauses_of(drift_in(verdict)) == []
 
 
-@pytest.mark.parametrize("way", [[-1, -1, -1, -1, -1, -1], [1, 2, -2, 1, 1, -1]])
+@pytest.mark.parametrize("way", [pytest.param([-1] * 6, marks=pytest.mark.long), [1, 2, -2, 1, 1, -1]])
 def test_a_jump_that_goes_another_way_than_the_drift_stays_a_jump(way):
     """Back where the drift came from, or aside: no pause does that."""
     arm = arm_named("six-axis")

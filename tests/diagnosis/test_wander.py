@@ -24,7 +24,7 @@ QUICK = Settings(resamples=0, cross_validation=False)
 ROWS = 150
 
 
-def session(name: str = "six-axis") -> tuple[Arm, Recordings]:
+def session(name: str = "four-axis") -> tuple[Arm, Recordings]:
     """An arm measured for three hours with noise of 0.02 mm, row after row; the temperature stays what it is."""
     arm = arm_named(name)
     table = replace(one_run(arm, ROWS, seed=5), time=np.linspace(0.0, 10800.0, ROWS), temperature=None)
@@ -60,9 +60,15 @@ def drift_of(verdict: Diagnosis) -> float:
     return next(family.rms_at_tool_mm for family in verdict.background_families if family.family == "drift")
 
 
-def test_a_slow_wander_is_background_and_no_jump() -> None:
+@pytest.fixture(scope="module")
+def wandered() -> Diagnosis:
+    """What is said of a set-up that wanders as far as the noise goes."""
     arm, table = session()
-    verdict = diagnose(arm, wandering(table, 0.02), QUICK)
+    return diagnose(arm, wandering(table, 0.02), QUICK)
+
+
+def test_a_slow_wander_is_background_and_no_jump(wandered: Diagnosis) -> None:
+    verdict = wandered
     assert verdict.effects == ()
     assert drift_of(verdict) == pytest.approx(0.02 / np.sqrt(3), rel=0.3)
     assert "slow drift of base and instrument" in verdict.headline
@@ -134,11 +140,11 @@ def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: 
     assert (("base_drift", "base") in {(a.effect, a.location) for a in found.alternatives}) == in_step
 
 
-def test_a_wander_belongs_to_its_session(tmp_path) -> None:
+def test_a_wander_belongs_to_its_session(wandered: Diagnosis, tmp_path) -> None:
     """Rows without a time stand where the set-up stood on average; another recording starts without it."""
-    arm, table = session()
+    _, table = session()
     moved = wandering(table, 0.02)
-    save_model(tmp_path / "model.yaml", diagnose(arm, moved, QUICK).model)
+    save_model(tmp_path / "model.yaml", wandered.model)
     model = load_model(tmp_path / "model.yaml")
     assert {part.placed.name for part in model.background} == {"base_wander", "link_wander"}
     left = predict(model, moved) - moved.positions

@@ -42,7 +42,7 @@ def test_every_run_has_its_base_and_every_target_its_tool() -> None:
 
 
 def test_a_few_wild_rows_do_not_drag_the_frames() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, 60, seed=2), {}, 0.01, seed=7)
     clean = point_residuals(fit_frames(arm, table), table)
     table.positions[5] += 0.02
@@ -53,7 +53,7 @@ def test_a_few_wild_rows_do_not_drag_the_frames() -> None:
 
 def two_runs(shift_mm: list[float]) -> tuple[Arm, Recordings]:
     """Two runs of one arm whose joint 2 gives way; in the second the tool point lies elsewhere."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     poses = [one_run(arm, 60, seed) for seed in (2, 3)]
     tables = [recorded(arm, table, {("joint_compliance", "joint 2"): [4e-7]}, 0.02, seed=7) for table in poses]
     turned = chain(arm, poses[1].motor_angles).tool_rotation

@@ -32,7 +32,7 @@ NAMES = ["b", "a", "c"]
 
 def three_runs(moved: dict[str, tuple[list[float], list[float]]], rows: int = 40) -> tuple[Arm, Recordings]:
     """Runs of an arm without any error; some with the measured points moved by (mm, mrad), noise 0.02 mm."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, 3 * rows, seed=3), {}, 0.02, seed=8)
     table = replace(table, run=np.repeat(NAMES, rows), time=None, temperature=None)
     for run, (shift, turn) in moved.items():

@@ -47,7 +47,7 @@ def chosen_worlds() -> list[WorldSpec]:
 
 LAST = "seven-axes-modified-dh"
 """An example that is diagnosed by tests/diagnosis/test_diagnose.py as well."""
-AGAIN = ("clean", "single", "multiple", "real", "bad_shots")
+AGAIN = ("clean", "single", "multiple", "real", "bad_shots", "inseparable", "misleading")
 """Categories of which an example is one as well, and those that take longest."""
 
 

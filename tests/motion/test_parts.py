@@ -78,7 +78,9 @@ def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> Non
     assert {stretch.rate for stretch in found} == {100.0}  # of a run, not between them
 
 
-@pytest.mark.parametrize("kept", [np.r_[0:3000, 3000:6000:2], np.r_[0:6000, 6000:9000:2]])
+@pytest.mark.parametrize(
+    "kept", [np.r_[0:3000, 3000:6000:2], pytest.param(np.r_[0:6000, 6000:9000:2], marks=pytest.mark.long)]
+)
 def test_an_arm_whose_runs_have_other_rates_has_nothing_missing(kept: np.ndarray) -> None:
     motions = moved(robot(), 3, runs=len(kept) // 3000 + 1)
     found = diagnose_motion(robot(), motions.rows(kept)).verdict

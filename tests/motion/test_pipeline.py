@@ -19,7 +19,9 @@ from tests.motion.moving import COULOMB, ROTOR, VISCOUS, Plant, behind_its_drive
 from tests.seeds import seeds
 
 
+@functools.cache
 def diagnosed(plant: Plant | None, seed: int = 1, **more: float) -> MotionDiagnosis:
+    """What is said of an arm with ordinary friction and what was planted: of the same plant once in a process."""
     arm = robot()
     return diagnose_motion(arm, moved(arm, seed, plant, **more), MotionSettings(cutoff=10.0))
 
@@ -28,34 +30,30 @@ def names(found: MotionDiagnosis) -> list[tuple[str, str]]:
     return [(cause.effect, cause.location) for cause in found.verdict.effects]
 
 
-@functools.cache
-def as_stated(seed: int) -> MotionDiagnosis:
-    """What is said of an arm with ordinary friction and nothing else."""
-    return diagnosed(None, seed)
-
-
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_an_arm_with_ordinary_friction_has_nothing_missing(seed: int) -> None:
-    found = as_stated(seed)
+    found = diagnosed(None, seed)
     assert found.verdict.answer == "nothing missing"
     assert found.verdict.held_out.model < 0.02 < found.verdict.held_out.stated
 
 
 def test_friction_and_rotors_are_told_in_one_line_per_joint() -> None:
-    for told, coulomb in zip(as_stated(1).verdict.background, COULOMB, strict=True):
+    for told, coulomb in zip(diagnosed(None, 1).verdict.background, COULOMB, strict=True):
         dry = next(parameter for parameter in told.parameters if parameter.name == "coulomb")
         low, high = dry.interval
         assert low - 0.02 * coulomb < coulomb < high + 0.02 * coulomb
         assert [parameter.name for parameter in told.parameters] == ["coulomb", "viscous", "inertia"]
 
 
-def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
-    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
-        extra = np.zeros_like(q)
-        extra[:, 1] = 0.08 * np.abs(rigid[:, 1]) * np.sign(dq[:, 1])
-        return extra
+def rubbing_with_load(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """Friction of joint 2 that grows with its load."""
+    extra = np.zeros_like(q)
+    extra[:, 1] = 0.08 * np.abs(rigid[:, 1]) * np.sign(dq[:, 1])
+    return extra
 
-    found = diagnosed(plant)
+
+def test_friction_that_grows_with_load_is_found_at_its_joint() -> None:
+    found = diagnosed(rubbing_with_load)
     assert names(found) == [("load_friction", "joint 2")]
     cause = found.verdict.effects[0]
     low, high = cause.parameters[0].interval

@@ -21,6 +21,8 @@ def checkout(tmp_path):
     for name in ("config", "workflow", "profiles", "src"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "Snakefile", tmp_path)
+    if (worked_out := ROOT / "results" / "small" / "settings").is_dir():  # by `make test`: whether paths are in reach
+        shutil.copytree(worked_out, tmp_path / "results" / "small" / "settings")
     folder, local = tmp_path / "config" / "recordings" / "tiny", tmp_path / "local" / "tiny" / "raw"
     folder.mkdir()
     local.mkdir(parents=True)

@@ -95,7 +95,7 @@ def test_a_moving_base_moves_the_whole_arm_by_its_twist(kind):
     assert np.abs(moved(scene, effect) - by_hand).max() < FIRST_ORDER * np.abs(by_hand).max()
 
 
-@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("name", [ARMS[0], *(pytest.param(name, marks=pytest.mark.long) for name in ARMS[1:])])
 def test_a_compliant_joint_turns_its_motor_by_compliance_times_gravitys_torque(name):
     scene, _ = scene_of(name)
     arm = HandArm.named(name)

@@ -32,7 +32,7 @@ STILL = Base(np.eye(3), np.zeros(3))
 @pytest.fixture(scope="module")
 def loop() -> SelectionLoop:
     """A first round, without scanning, on an arm whose third gear has a line and whose base jumped by 0.5 mm."""
-    arm, table = planted("six-axis", {}, 160, 0.02, seed=5)
+    arm, table = planted("four-axis", {}, 160, 0.02, seed=5)
     ripple = Part(mesh(3, LINE), np.array([4e-4, 0.0]))
     still = FittedModel(arm, {"1": STILL}, (), ())
     table.positions[:] += predict(FittedModel(arm, {"1": STILL}, (), (ripple,)), table) - predict(still, table)
@@ -71,7 +71,7 @@ def test_a_fine_line_that_no_round_scanned_for_is_found_once_all_else_is_known(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("armscope.diagnosis.selection_loop.SCANS", replace(SCANS, scan_of_fine_lines=-1))
-    arm, table = planted("six-axis", {}, 160, 0.02, seed=7)
+    arm, table = planted("four-axis", {}, 160, 0.02, seed=7)
     line = Part(mesh(2, FINE_LINE), np.array([8e-5, 0.0]))
     still = FittedModel(arm, {"1": STILL}, (), ())
     table.positions[:] += predict(FittedModel(arm, {"1": STILL}, (), (line,)), table) - predict(still, table)

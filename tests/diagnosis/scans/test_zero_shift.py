@@ -34,7 +34,7 @@ def drifts(verdict: Diagnosis) -> list[tuple[str, str]]:
 @pytest.mark.parametrize(
     ("rows", "joint", "radians"),
     [
-        (UR5E, 2, 2e-4),
+        pytest.param(UR5E, 2, 2e-4, marks=pytest.mark.long),
         pytest.param(UR5E, 4, 1e-3, marks=pytest.mark.long),
         pytest.param(UR5E, 3, -5e-4, marks=pytest.mark.long),
         (IIWA, 4, 5e-4),

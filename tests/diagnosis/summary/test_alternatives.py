@@ -152,7 +152,7 @@ def test_rows_that_are_drawn_twice_make_no_noise_smaller(monkeypatch: pytest.Mon
 
     monkeypatch.setattr(judgement, "inclusion_frequency", frequency)
     monkeypatch.setattr(summary, "named", names)
-    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [1e-3]}, 60, 0.03, 1)
+    arm, table = planted("four-axis", {("joint_offset", "joint 3"): [1e-3]}, 60, 0.03, 1)
     diagnose(arm, table, Settings(resamples=6, cross_validation=False))
     assert len(drawn) == 6
     assert min(drawn) >= told[0]

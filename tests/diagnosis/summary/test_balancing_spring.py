@@ -28,7 +28,7 @@ def wave_found(arm: Arm, table: Recordings) -> FoundEffect:
 
 def with_wave_of_joint_2(lifts_nm: float, ahead: float) -> tuple[Arm, Recordings]:
     """Joint 2 gives way to what gravity leaves of its load when a wave of the angle lifts it; ``ahead`` of upright."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = one_run(arm, ROWS, seed=2)
     angle, load = table.motor_angles[:, 1], Scene(arm, table).torques[:, 1]
     # gravity's torque on joint 2 is a wave of its angle, for the most part: its phase by least squares

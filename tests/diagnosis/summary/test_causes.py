@@ -10,7 +10,7 @@ QUICK = Settings(resamples=0, cross_validation=False)
 
 
 def verdict_on(wanted: dict[tuple[str, str], list[float]], seed: int = 21) -> Verdict:
-    arm, table = planted("six-axis", wanted, 120, 0.02, seed=seed)
+    arm, table = planted("four-axis", wanted, 120, 0.02, seed=seed)
     return diagnose(arm, table, QUICK)
 
 

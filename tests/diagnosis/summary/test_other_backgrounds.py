@@ -51,7 +51,7 @@ def test_its_interval_owns_what_springs_elsewhere_might_do(monkeypatch: pytest.M
 
 
 def test_where_the_rows_tell_them_apart_it_stays_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
     (owned,) = diagnose(arm, table, QUICK).effects
     monkeypatch.setattr(judgement, "doubts", lambda search, best: {})
     (sure,) = diagnose(arm, table, QUICK).effects

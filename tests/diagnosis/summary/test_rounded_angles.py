@@ -21,7 +21,7 @@ STEP_DEG = 0.1
 
 @pytest.fixture(scope="module")
 def arm() -> Arm:
-    return arm_named("six-axis")
+    return arm_named("four-axis")
 
 
 def rounded(table: Recordings) -> Recordings:
@@ -33,7 +33,7 @@ def said_of_rounding(verdict: Diagnosis) -> list[str]:
 
 
 def test_rounding_is_noise_of_known_size_and_no_scatter_of_a_joint(arm: Arm) -> None:
-    _, table = planted("six-axis", {}, 150, NOISE_MM, seed=8)
+    _, table = planted("four-axis", {}, 150, NOISE_MM, seed=8)
     verdict = diagnose(arm, rounded(table), QUICK)
     assert verdict.answer == "nothing missing"
     (said,) = said_of_rounding(verdict)
@@ -54,7 +54,7 @@ def test_poses_commanded_in_round_numbers_have_no_such_noise(arm: Arm) -> None:
 
 
 def test_a_cause_is_named_behind_rounding_and_a_joint_that_scatters_beside_it(arm: Arm) -> None:
-    _, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-3]}, 150, NOISE_MM, seed=9)
+    _, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-3]}, 150, NOISE_MM, seed=9)
     assert [(e.effect, e.location) for e in diagnose(arm, rounded(table), QUICK).effects] == [
         ("joint_offset", "joint 3")
     ]

@@ -27,7 +27,7 @@ def asked(kind: str, n: int, seed: int) -> tuple[World, MotionDiagnosis]:
     return world, diagnose_motion(arm, as_motions(world.recorded(), "motions.csv", world.n))
 
 
-@pytest.mark.parametrize("kind", ["even", pytest.param("near", marks=pytest.mark.long), "over"])
+@pytest.mark.parametrize("kind", [*(pytest.param(kind, marks=pytest.mark.long) for kind in ("even", "near")), "over"])
 @pytest.mark.parametrize("seed", seeds(4, 1, 2, 3))
 def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> None:
     (world, found), spring = asked(kind, 3 + seed % 4, seed), SPRINGS[kind]
@@ -71,7 +71,7 @@ def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
         assert abs(told[name].value - value) < 3 * told[name].stderr < 0.3
 
 
-@pytest.mark.parametrize("kind", ["taut", "harness", pytest.param("end", marks=pytest.mark.long)])
+@pytest.mark.parametrize("kind", ["taut", *(pytest.param(kind, marks=pytest.mark.long) for kind in ("harness", "end"))])
 @pytest.mark.parametrize("seed", seeds(4, 1, 2))
 def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
     world, found = asked(kind, 3 + seed % 4, seed)

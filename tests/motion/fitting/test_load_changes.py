@@ -100,7 +100,7 @@ def test_a_selection_stays_as_it_is_where_no_change_gets_a_name(
 ) -> None:
     """Another round from another start may end elsewhere: only a change that has a name is reason for that."""
     arm = robot()
-    motions = moved(arm, 2, noise=0.005)
+    motions = moved(arm, 2, noise=0.005, seconds=10.0)
     laid = list(stretches(motions))
     seen = seen_in(arm, laid, LIBRARY.still_rad)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), False)

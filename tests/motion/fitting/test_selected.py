@@ -10,7 +10,7 @@ from tests.motion.moving import moved, robot
 
 
 def test_what_is_left_is_measured_less_modelled_and_worked_out_once() -> None:
-    selected = diagnose_motion(robot(), moved(robot(), 3)).selected
+    selected = diagnose_motion(robot(), moved(robot(), 3, seconds=10.0)).selected
     rows = selected.rows
     modelled = rows.nominal + rows.modelled(coefficients_of(selected.problem, selected.best))
     assert np.array_equal(selected.residuals, rows.torque - modelled)

@@ -28,7 +28,7 @@ def rows_of(count: int) -> MotionRows:
     """Some rows of an arm that moves; what they hold plays no part."""
     arm = robot()
     rows = build_rows(
-        TorqueLayout(arm, (), False), list(stretches(moved(arm, 4))), preparation(200.0, 10.0, "test"),
+        TorqueLayout(arm, (), False), list(stretches(moved(arm, 4, seconds=10.0))), preparation(200.0, 10.0, "test"),
         stated_model(arm),
     )  # fmt: skip
     names = ("time", "run", "stretch", "q", "dq", "torque", "nominal", "still")

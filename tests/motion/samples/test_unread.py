@@ -46,7 +46,7 @@ def test_another_run_is_no_more_of_the_same() -> None:
 
 
 def test_a_channel_that_fell_out_takes_nothing_else_along() -> None:
-    motions = moved(robot(), 3)
+    motions = moved(robot(), 3, seconds=10.0)
     fell = motions.effort.copy()
     late = motions.time > np.quantile(motions.time, 0.7)
     fell[late, 1] = 0.0

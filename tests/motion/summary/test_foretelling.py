@@ -15,7 +15,7 @@ from tests.motion.moving import moved, robot
 
 @pytest.fixture(scope="module")
 def selected() -> SelectedCauses:
-    found = diagnose_motion(robot(), moved(robot(), 3), MotionSettings(cutoff=10.0)).selected
+    found = diagnose_motion(robot(), moved(robot(), 3, seconds=10.0), MotionSettings(cutoff=10.0)).selected
     assert found.best.background[1], "friction changes sides at times of its own to begin with"
     return found
 

@@ -37,7 +37,7 @@ def test_a_path_that_excites_little_says_what_it_leaves_unknown() -> None:
 
 
 def test_a_lively_path_is_told_nothing_of_the_kind() -> None:
-    verdict = diagnose_motion(robot(), moved(robot(), 1), MotionSettings(cutoff=10.0)).verdict
+    verdict = diagnose_motion(robot(), moved(robot(), 1, seconds=10.0), MotionSettings(cutoff=10.0)).verdict
     assert not [notice for notice in verdict.notices if notice.kind == "little excited"]
     assert verdict.identifiable["condition"] < 20
     assert verdict.identifiable["combinations"] < verdict.identifiable["parameters"]

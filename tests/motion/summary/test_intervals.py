@@ -46,7 +46,7 @@ def test_gains_that_are_stated_to_be_exact_are_believed(loaded: Motions) -> None
 def on_two_paths(arm: MovingArm, more: float) -> MotionDiagnosis:
     """Joint 1 has more viscous friction on the second of two paths."""
     rubbing = lambda q, dq, ddq, rigid: np.column_stack([more * dq[:, 0], 0 * dq[:, 1:]])
-    one, other = table(arm, 5), table(arm, 5, rubbing)
+    one, other = table(arm, 5, seconds=10.0), table(arm, 5, rubbing, seconds=10.0)
     both = pd.concat([one[one["run"] == "path 1"], other[other["run"] == "path 2"]])
     return diagnose_motion(arm, as_motions(both, "motions.csv", arm.n_motors), MotionSettings(cutoff=10.0))
 

@@ -25,7 +25,7 @@ def test_links_that_are_all_off_a_little_are_not_nothing_missing(seed: int) -> N
         {**link, "mass_kg": share * link["mass_kg"], "com_mm": [a + b for a, b in zip(link["com_mm"], by, strict=True)]}
         for link, (share, by) in zip(links, off, strict=True)
     ]
-    verdict = diagnose_motion(robot(), moved(robot(links=true), seed, noise=0.005)).verdict
+    verdict = diagnose_motion(robot(), moved(robot(links=true), seed, noise=0.005, seconds=10.0)).verdict
     assert not verdict.effects
     assert (verdict.answer, verdict.mismatch) == ("cannot tell", True)
     assert verdict.headline.startswith("Masses of the links are not as stated")

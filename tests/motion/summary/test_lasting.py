@@ -17,7 +17,7 @@ SIZE = 2.5
 
 def diagnosed(plant: Plant, **how: float) -> MotionDiagnosis:
     arm = robot()
-    return diagnose_motion(arm, moved(arm, 1, plant, **how), MotionSettings(cutoff=10.0))
+    return diagnose_motion(arm, moved(arm, 1, plant, **how, seconds=10.0), MotionSettings(cutoff=10.0))
 
 
 def between_two(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:

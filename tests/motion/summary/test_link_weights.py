@@ -28,7 +28,7 @@ def off_by(shares: tuple[float, ...], **more: Any) -> MotionDiagnosis:
         {**link, "mass_kg": by * link["mass_kg"], "inertia_kg_m2": [by * each for each in link["inertia_kg_m2"]]}
         for link, by in zip(stated, shares, strict=True)
     ]
-    return diagnose_motion(robot(), moved(robot(links=links, **more), 5), MotionSettings(cutoff=10.0))
+    return diagnose_motion(robot(), moved(robot(links=links, **more), 5, seconds=10.0), MotionSettings(cutoff=10.0))
 
 
 @pytest.fixture(scope="module")

@@ -74,7 +74,7 @@ def test_what_is_not_surely_one_clock_stays_as_it_is(causes: list[FoundCause], m
 
 def recorded_late(seed: int) -> Motions:
     """All torques of every run by the same time too late."""
-    motions = moved(robot(), seed)
+    motions = moved(robot(), seed, seconds=10.0)
     effort: Array = motions.effort.copy()
     for run in motions.runs:
         there = np.flatnonzero(motions.run == run)

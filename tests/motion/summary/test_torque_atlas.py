@@ -6,7 +6,7 @@ import pytest
 from armscope.core.types import Array
 from armscope.verdict.diagnosis import Atlas
 from tests.motion.moving import Plant, clinging
-from tests.motion.test_pipeline import diagnosed
+from tests.motion.test_pipeline import diagnosed, rubbing_with_load
 from tests.seeds import seeds
 
 
@@ -38,7 +38,7 @@ def test_a_clean_arm_stays_dark(seed: int) -> None:
     ("plant", "joint", "driver"),
     [
         (at(1, lambda q, dq, ddq, rigid: 2 * np.sin(9 * q)), "joint 1", "joint angle"),
-        (at(2, lambda q, dq, ddq, rigid: 0.08 * np.abs(rigid) * np.sign(dq)), "joint 2", "load"),
+        (rubbing_with_load, "joint 2", "load"),
         (at(3, lambda q, dq, ddq, rigid: np.ones_like(q)), "joint 3", "constant"),
         (at(3, lambda q, dq, ddq, rigid: 2 * np.abs(dq)), "joint 3", "direction"),
     ],

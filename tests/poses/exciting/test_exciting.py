@@ -112,7 +112,7 @@ def test_the_motion_keeps_all_limits_and_is_better_than_random(six, found):
     assert found.after.condition < found.before.condition
 
 
-@pytest.mark.parametrize("harmonics", [5, 20])
+@pytest.mark.parametrize("harmonics", [pytest.param(5, marks=pytest.mark.long), 20])
 def test_torque_stays_within_its_limit_between_the_samples_too(six, harmonics):
     """By MuJoCo, every 2 ms: motors that can give hardly more than a motion asks for; waves of half a second."""
     plain = excite(six, MotionRequest(period=10.0, harmonics=harmonics, rounds=0, seed=1), NOWHERE)
@@ -172,7 +172,7 @@ def test_where_every_large_motion_hits_something_a_small_one_grows_about_a_clear
     arm, around = folding(), Surroundings()
     small = excite(arm, MotionRequest(rounds=0), around)
     assert small.refused >= 24 * 4  # all random motions, at every share of the limits
-    grown = excite(arm, MotionRequest(rounds=60), around)
+    grown = excite(arm, MotionRequest(rounds=15), around)
     assert grown.after.value > small.after.value
     angle, speed, _ = grown.path.at(np.linspace(0, 20, 300))
     assert (refusals(arm, angle, around) == "").mean() > 0.99
