@@ -72,6 +72,7 @@ def code(*modules):
 PROOF = f"{RESULTS}/proof"
 HALVES = ("fixed", "fresh")
 PARTS = {"small": 1, "full": CONFIG.proof.parts}
+OF_PARTS = {"small": CONFIG.proof.small, "full": CONFIG.proof.parts}
 
 
 def batches(size):

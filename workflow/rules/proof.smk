@@ -36,7 +36,7 @@ rule proof_worlds:
         visible=directory(f"{PROOF}/{{size}}/visible/{{half}}-{{part}}"),
         sealed=f"{PROOF}/{{size}}/sealed/{{half}}-{{part}}.tar.gz",
     params:
-        parts=lambda wildcards: PARTS[wildcards.size],
+        parts=lambda wildcards: OF_PARTS[wildcards.size],
         seed=lambda wildcards, input: f"--seed-file {input.seed}" if input.seed else "",
         code=code("armscope.cli.proof:worlds"),
     log:

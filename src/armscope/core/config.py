@@ -164,6 +164,7 @@ class Proof(Strict):
     resamples: Annotated[int, Field(ge=0, description="how often rows are resampled; not scored")] = 0
     cross_validation: bool = Field(False, description="the proof scores rows that the diagnosis never saw instead")
     parts: Count = Field(4, description="jobs per half of the full proof's worlds")
+    small: Count = Field(1, description="of the small proof's worlds every so many are made: 3 makes a third of them")
 
 
 class PoseStudy(Strict):
