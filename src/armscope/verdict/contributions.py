@@ -14,11 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.averages import rms
+from armscope.core.location import Location
 from armscope.core.rotations import turn_onto
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
 from armscope.physics.effect import AXES, Direction, Part
+from armscope.physics.registry import effect_named
 from armscope.physics.scene import Posture
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
@@ -32,18 +34,32 @@ SEEN = 0.01
 """Share of the error from which small errors of a family have a switch."""
 FAR_TURN = 2e-3
 """A turn (rad) whose second order is two micrometres at a metre: beyond it a base is turned back exactly."""
+FELT = 0.01
+"""Share of what a curve moves from which its constant is told: its square is a ten-thousandth."""
+MOST_READ = 20_000
+"""Rows over which a curve's mean is taken."""
 MOST_CAUSES = 6
 """More major effects than this are taken together with the minor ones."""
 
 
 @dataclass(frozen=True, eq=False)
 class Repair:
-    """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free."""
+    """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free.
+
+    `zero` is the joint's own zero, rad, that a curve's correction has to hold (`Ground.own_zero`).
+    """
 
     name: str
     effects: tuple[FoundEffect, ...]
     parts: tuple[Part, ...]
     moved: Array
+    zero: float = 0.0
+
+    @property
+    def requires(self) -> str:
+        """The family without whose correction curing them does nothing; "" for none."""
+        known = effect_named(self.effects[0].effect) if len(self.effects) == 1 else None
+        return known.requires if known else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +137,24 @@ class Ground:
         others = replace(model, parts=kept, background=small)
         return self.free(1e3 * (self.posture.tool - self._brought_back(others.posture(self.posture.scene).tool)))
 
+    def own_zero(self, effect: FoundEffect, parts: Sequence[Part]) -> float:
+        """The constant (rad or m) that a correction by a joint's curve must hold beside the curve's shape.
+
+        It is the joint's zero. Where small errors of geometry are fitted, they hold it, and the part's mean is 0; at
+        the first and the last joint it is a turn of base or tool, which are placed anyway. Elsewhere no other step sets
+        it: a table without it leaves the tool where the zero puts it.
+        """
+        if not effect.nameless or effect.curve is None or not any(p.placed.effect.cure.commanded for p in parts):
+            return 0.0
+        table = self.verdict.recordings
+        amounts = self.verdict.model.scene(table.rows(spread_evenly(len(table), MOST_READ))).amounts(parts)
+        direction, turned = next(iter(amounts.items()), (None, np.zeros(1)))
+        moved = None if direction is None else self.posture.displacement(direction)
+        if moved is None or direction is None or Location.of(direction.location).kind != "motor":
+            return 0.0
+        zero = float(np.mean(turned))
+        return zero if rms(self.free(1e3 * zero * moved)) > FELT * rms(self.moved_by(parts)) else 0.0
+
     def _brought_back(self, points: Array) -> Array:
         """(n, 3) points with the bases turned back where they lie far off, m.
 
@@ -186,7 +220,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
     main, minor = main_and_minor(verdict.effects)
 
     def alone(effect: FoundEffect) -> Repair:
-        return Repair(effect.title, (effect,), parts[id(effect)], ground.moved_by(parts[id(effect)]))
+        its = parts[id(effect)]
+        return Repair(effect.title, (effect,), its, ground.moved_by(its), ground.own_zero(effect, its))
 
     causes = tuple(alone(effect) for effect in main[:MOST_CAUSES])
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]

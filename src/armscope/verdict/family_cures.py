@@ -20,7 +20,7 @@ _CURES = {
     "describes this recording, not the arm.",
     "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "
     "curves (curves.csv) as correction tables, commanded = wanted - curve, or compensate for them in the commands "
-    "(`armscope compensate`). The tables hold the curves about their means, which the joints' zeros take up.",
+    "(`armscope compensate`). The tables hold the joints' own zeros where no other step sets them.",
 }
 """What mends a family where it has several members or small errors everywhere."""
 

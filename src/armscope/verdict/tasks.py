@@ -21,6 +21,7 @@ from armscope.verdict.corrections import corrected_origin, place_and_angles
 from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length, with_sign
+from armscope.verdict.filenames import CURVES
 from armscope.verdict.sentences import phrase
 from armscope.verdict.wording import capitalised, implausible, read_parameter
 
@@ -44,6 +45,10 @@ class Task:
         alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
         only_after: it pays only once all before it is done: alone it would make the error larger.
         instead: it stands in place of all before it, and holds them.
+        members: "effect at location" of what it cures; none for what is everywhere.
+        family: of what it cures.
+        requires: the family without whose correction it does nothing: a payload's data act through what gives way.
+        needs: what has to be done first for that, in words.
     """
 
     what: str
@@ -58,6 +63,10 @@ class Task:
     then_mm: float = math.nan
     only_after: bool = False
     instead: bool = False
+    members: tuple[str, ...] = ()
+    family: str = ""
+    requires: str = ""
+    needs: str = ""
 
 
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
@@ -98,15 +107,19 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
     said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
     instruction = known.cure.instruction.format(**words) if known else ""
+    rule = (known.cure.rule if known else effect.cure).replace("`", "")
     task = Task(
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
-        motion="" if said_already else _motion(scene, cause.parts, about_mean=effect.nameless),
+        motion="" if said_already else _motion(scene, cause.parts, zero=cause.zero if effect.nameless else None),
         instruction=instruction,
-        cure=with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), told.values(), effect.effect),
+        cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}",
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
+        members=(effect.as_member,),
+        family=effect.family,
+        requires=known.requires if known else "",
     )
     doubt = doubt_of(effect, asked)
     return task if doubt is None else _in_doubt(task, doubt)
@@ -165,6 +178,19 @@ def with_numbers(rule: str, parameters: Iterable[Parameter], effect: str) -> str
     return f"{rule} {NO_NUMBER}" if "compliance" in formula else rule
 
 
+def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
+    """Behind a rule that subtracts a curve: where its numbers are, and what of them is the joint's zero."""
+    if not rule.partition(FORMULA)[2].startswith("wanted - curve"):
+        return ""
+    if effect.curve is None:
+        return " Its numbers are in model.yaml alone: let armscope compensate compute the commands."
+    there = f" The curve is in {CURVES} ({effect.effect}, {effect.location}, {effect.driver}): value over at."
+    if not cause.zero:
+        return there
+    own = angle(cause.zero) if effect.curve.value_unit == "rad" else length(1e3 * cause.zero)
+    return f"{there} It holds the joint's own zero, {own}, too, which no other step sets."
+
+
 def _number(parameter: Parameter, effect: str) -> str:
     if parameter.name == "per_turn":
         return f"{parameter.value:g}"
@@ -196,14 +222,14 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bool = False) -> str:
+def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, zero: float | None = None) -> str:
     """The largest turn and shift of parts over the recorded rows, in words, with signs.
 
     Args:
         scene: the rows.
         parts: that move.
         sign: -1 to undo them.
-        about_mean: without what the joint's zero, the base or the tool may take up, too, as in a free curve.
+        zero: what stands in the place of the mean, as in a curve's table; None for the motion as it is.
 
     Returns:
         Which place moves how, from ... to.
@@ -221,7 +247,7 @@ def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bo
     for verb, found in amounts.items():
         if found:
             name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
-            amount = amount - amount.mean() if about_mean else amount
+            amount = amount if zero is None else amount - amount.mean() + zero
             if np.abs(amount).max() > 0:
                 told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
     return "; ".join(told)

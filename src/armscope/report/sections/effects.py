@@ -34,7 +34,8 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    alone = {id(cause.effects[0]): subject.worth.cured([n]) for n, cause in enumerate(subject.worth.causes)}
+    # what does nothing by itself has no worth alone
+    alone = {id(c.effects[0]): subject.worth.cured([n]) for n, c in enumerate(subject.worth.causes) if not c.requires}
     main, _ = main_and_minor(subject.verdict.effects)
     before = millimetres(subject.expected(rms(subject.worth.before)))
     worth = [f"{before} → {millimetres(subject.expected(alone[id(e)]))}" if id(e) in alone else "" for e in main]
