@@ -101,7 +101,7 @@ def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
     rule = task_of(model.scene(case.recordings), cause, wave).cure
     formula, _, numbers = rule.partition("commanded = wanted - ")[2].partition(". Here ")
     assert formula == "amplitude x cos(per_turn x wanted - phase)"
-    assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11°."
+    assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11° (± 0.22)."
 
 
 def test_how_far_something_jumped_has_its_interval() -> None:
@@ -192,3 +192,24 @@ def test_a_cause_in_doubt_names_no_part_to_change_and_says_how_each_reading_show
     assert "bearing" not in before
     assert "bearing" in after
     assert "whichever it is" in task.cure
+
+
+def test_growth_and_compliances_have_their_numbers_and_intervals_behind_their_formulas() -> None:
+    """ "length = stated length x (1 + coefficient x ...)" stood without the coefficient."""
+    told = {}
+    for effect, place, parameter in (
+        ("thermal_expansion", "link 3", Parameter("coefficient", "1/K", 61e-6, 1.2e-6)),
+        ("joint_compliance", "joint 2", Parameter("compliance", "rad/(N m)", 6.18e-6, 4e-8)),
+        ("payload_error", "payload", Parameter("mass", "kg", 2.43, 0.05)),
+        ("payload_error", "payload", Parameter("com_z", "mm", 122.0, 8.0)),
+    ):
+        found = verdicts.found(effect, place, parameter)
+        case = verdicts.case(effects=(found,))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        told[parameter.name] = task_of(model.scene(case.recordings), cause, found).cure.partition(" Here ")[2]
+    assert told == {
+        "coefficient": "coefficient = 61.0 millionths per K (± 2.4).",
+        "compliance": "compliance = 6.180 µrad per N m (± 0.078).",
+        "mass": "mass = 2.430 kg (± 0.098).",
+        "com_z": "com z = 122.0 mm (± 15.7).",
+    }

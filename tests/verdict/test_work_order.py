@@ -213,6 +213,7 @@ def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
     tasks = work_order(replace(case.verdict, causes=(told,)), worth).tasks
     assert [task.place for task in tasks] == ["joint 2", "joints 3 and 5"]
     assert "commanded = wanted - curve" in tasks[1].instruction
+    assert all(f"curves.csv (unknown, joint {n}, " in tasks[1].cure for n in (3, 5))
     assert tasks[1].then_mm == pytest.approx(rms(worth.left))
     ranking = locations._ranking(replace(case.verdict, causes=(told,)))
     assert "Unexplained curves at joints 3 and 5" in [place.name for place in ranking]

@@ -19,7 +19,9 @@ from armscope.core.rotations import turn_onto
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
-from armscope.physics.effect import AXES, Direction, Part
+from armscope.physics.effect import AXES, Direction, Driver, Part
+from armscope.physics.elastic import UNKNOWN_MASSES, drive
+from armscope.physics.model import FittedModel
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Posture
 from armscope.verdict.diagnosis import Diagnosis
@@ -46,7 +48,8 @@ MOST_CAUSES = 6
 class Repair:
     """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free.
 
-    `zero` is the joint's own zero, rad, that a curve's correction has to hold (`Ground.own_zero`).
+    `zero` is the joint's own zero, rad, that a curve's correction has to hold (`Ground.own_zero`); `unsaid` (n, 3) is
+    what the model moves beyond `moved`, where a cure as worded cannot take out all of it (`Ground.as_worded`).
     """
 
     name: str
@@ -54,6 +57,7 @@ class Repair:
     parts: tuple[Part, ...]
     moved: Array
     zero: float = 0.0
+    unsaid: Array | None = None
 
     @property
     def requires(self) -> str:
@@ -100,7 +104,8 @@ class Contributions:
     def before(self) -> Array:
         """(n, 3) nothing cured."""
         everything = [cause.moved for cause in (*self.causes, *([self.smaller] if self.smaller else []))]
-        return np.asarray(self.left + self.everywhere + sum(everything))
+        unsaid = [cause.unsaid for cause in self.causes if cause.unsaid is not None]
+        return np.asarray(self.left + self.everywhere + sum(everything) + sum(unsaid))
 
     def cured(self, causes: Sequence[int]) -> float:
         """RMS per axis, mm, once these of the causes are cured and nothing else."""
@@ -134,8 +139,26 @@ class Ground:
             return np.zeros((len(self.rows), 3))
         out, model = {id(part) for part in parts}, self.verdict.model
         kept, small = (tuple(p for p in some if id(p) not in out) for some in (model.parts, model.background))
-        others = replace(model, parts=kept, background=small)
+        return self._without(replace(model, parts=kept, background=small))
+
+    def _without(self, others: FittedModel) -> Array:
         return self.free(1e3 * (self.posture.tool - self._brought_back(others.posture(self.posture.scene).tool)))
+
+    def as_worded(self, effect: FoundEffect, parts: Sequence[Part]) -> Array | None:
+        """(n, 3) how far the tool moves, mm, when a cause is cured by the numbers in its rule; None: as it was fitted.
+
+        A drive whose mass moments were fitted, too, is commanded away by compliance x load, and that load comes from
+        the stated masses: what the fitted moments add to it is in no rule.
+        """
+        named = [p.value for p in effect.parameters if p.name == "compliance"]
+        arm, scene = self.verdict.model.arm, self.posture.scene
+        if [p.placed.variant for p in parts] != [UNKNOWN_MASSES] or not (named and arm.has_masses):
+            return None
+        (placed,) = (part.placed for part in parts)
+        j = Location.of(placed.location).number
+        stated = replace(placed, terms=(drive(scene, j, Driver("torque", (j,))),), prior_scale=(1.0,), variant="")
+        cured = Part(stated, np.array([-named[0]]))
+        return self._without(replace(self.verdict.model, parts=(*self.verdict.model.parts, cured)))
 
     def own_zero(self, effect: FoundEffect, parts: Sequence[Part]) -> float:
         """The constant (rad or m) that a correction by a joint's curve must hold beside the curve's shape.
@@ -221,7 +244,11 @@ def contributions(verdict: Diagnosis) -> Contributions:
 
     def alone(effect: FoundEffect) -> Repair:
         its = parts[id(effect)]
-        return Repair(effect.title, (effect,), its, ground.moved_by(its), ground.own_zero(effect, its))
+        fitted, worded = ground.moved_by(its), ground.as_worded(effect, its)
+        zero = ground.own_zero(effect, its)
+        if worded is None:
+            return Repair(effect.title, (effect,), its, fitted, zero)
+        return Repair(effect.title, (effect,), its, worded, zero, fitted - worded)
 
     causes = tuple(alone(effect) for effect in main[:MOST_CAUSES])
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
@@ -229,7 +256,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None
     single = tuple(alone(effect) for effect in rest)
-    named = (cause.moved for cause in (*causes, *([smaller] if smaller else [])))
+    named = [cause.moved for cause in (*causes, *([smaller] if smaller else []))]
+    named += [cause.unsaid for cause in causes if cause.unsaid is not None]
     left, small = ground.left_and_small(sum(named, np.zeros((len(ground.rows), 3))))
     return Contributions(ground.rows, left, causes, smaller, small, single)
 

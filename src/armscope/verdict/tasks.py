@@ -22,8 +22,9 @@ from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_con
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length, with_sign
 from armscope.verdict.filenames import CURVES
+from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
-from armscope.verdict.wording import capitalised, implausible, read_parameter
+from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
 
 LEAST_TURN = 5e-5
 """Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
@@ -106,7 +107,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
     said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
-    instruction = known.cure.instruction.format(**words) if known else ""
+    instruction = instruction_of(effect, scene.arm, known.cure.instruction.format(**words)) if known else ""
     rule = (known.cure.rule if known else effect.cure).replace("`", "")
     task = Task(
         what=capitalised(phrase(effect)),
@@ -114,7 +115,8 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         change="joint origin" if in_urdf else known.cure.change if known else "",
         motion="" if said_already else _motion(scene, cause.parts, zero=cause.zero if effect.nameless else None),
         instruction=instruction,
-        cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}",
+        cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}"
+        + (BEYOND_THE_RULE if cause.unsaid is not None else ""),
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
         members=(effect.as_member,),
@@ -154,7 +156,12 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     return f"joint {arm.joint_names[joint - 1]}'s origin", '<origin xyz="{}" rpy="{}"/>'.format(*numbers)
 
 
-FORMULA = "commanded = "
+FORMULA = re.compile(r"(?:commanded|length|mass) = (.*)", re.DOTALL)
+"""What a rule's numbers are named in; a row's and a zero's stand in their instructions."""
+BEYOND_THE_RULE = (
+    " The mass moments behind this number were fitted, too, and stand in no rule: the error expected is that of the "
+    "stated masses, and only armscope compensate takes out the rest."
+)
 NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
 """Without masses, what gives way is known by the product with them, which the model file has."""
 
@@ -170,17 +177,20 @@ def with_numbers(rule: str, parameters: Iterable[Parameter], effect: str) -> str
     Returns:
         The rule; it says so where nobody knows the number that it needs.
     """
-    formula = rule.partition(FORMULA)[2]
+    formula = _formula(rule)
+    words = dict.fromkeys(re.findall(r"\w+", formula))
     known = {p.name: p for p in parameters}
-    named = [known[name] for name in dict.fromkeys(re.findall(r"\w+", formula)) if name in known]
+    centre = [name for name in known if name.startswith("com_")] if "com" in words else []
+    named = [known[name] for name in (*words, *centre) if name in known]
     if named:
-        return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}."
+        numbers = (f"{p.name.replace('com_', 'com ')} = {_number(p, effect)}" for p in named)
+        return f"{rule} Here {', '.join(numbers)}."
     return f"{rule} {NO_NUMBER}" if "compliance" in formula else rule
 
 
 def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
     """Behind a rule that subtracts a curve: where its numbers are, and what of them is the joint's zero."""
-    if not rule.partition(FORMULA)[2].startswith("wanted - curve"):
+    if not _formula(rule).startswith("wanted - curve"):
         return ""
     if effect.curve is None:
         return " Its numbers are in model.yaml alone: let armscope compensate compute the commands."
@@ -191,12 +201,17 @@ def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
     return f"{there} It holds the joint's own zero, {own}, too, which no other step sets."
 
 
+def _formula(rule: str) -> str:
+    found = FORMULA.search(rule)
+    return found[1] if found else ""
+
+
 def _number(parameter: Parameter, effect: str) -> str:
     if parameter.name == "per_turn":
         return f"{parameter.value:g}"
     if parameter.unit == "rad" and parameter.name != "phase":
         return angle(parameter.value, parameter.stderr)
-    return read_parameter(parameter, effect).value
+    return f"{read_parameter(parameter, effect).value}{half_interval(parameter)}"
 
 
 def _jump(effect: FoundEffect) -> str:

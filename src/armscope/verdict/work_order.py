@@ -169,7 +169,7 @@ def _as_one(cause: Cause, members: Sequence[Repair], jobs: Sequence[Job]) -> Job
         change=enumerated(list(changes)),
         motion="; ".join(task.motion for task in tasks if task.motion),
         instruction=cause.cure.replace("`", ""),
-        cure="",
+        cure=" ".join(f"{capitalised(task.place)}: {task.cure}" for task in tasks),
         confirm=" ".join(dict.fromkeys(task.confirm for task in tasks)),
         members=tuple(member for task in tasks for member in task.members),
     )

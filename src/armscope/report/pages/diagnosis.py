@@ -33,6 +33,7 @@ from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
+from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import capitalised, millimetres, percent
@@ -166,7 +167,7 @@ def _warns(notice: Notice, verdict: Diagnosis) -> bool:
     """Whether a notice stands above everything: it limits the whole verdict, and the headline doesn't say it."""
     if notice.text.rstrip(".").lower() in verdict.headline.lower():
         return False
-    return notice.kind in WARNINGS or verdict.mismatch is None
+    return notice.kind in WARNINGS or notice in of_payloads(verdict) or verdict.mismatch is None
 
 
 def _noise(verdict: Diagnosis) -> str:
