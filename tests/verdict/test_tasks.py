@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from armscope.physics.effect import Part
+from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import UNKNOWN
 from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
@@ -125,6 +126,13 @@ def test_a_compliance_without_masses_has_no_number_to_enter_and_says_who_has_it(
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     assert "armscope compensate" in task_of(model.scene(case.recordings), cause, soft).cure
     assert "armscope compensate" not in task_of(model.scene(case.recordings), cause, cause.effects[0]).cure
+    # a payload gives the compliance itself, and the load is still one of masses that nobody stated
+    told = replace(cause.effects[0], parameters=(*products, *cause.effects[0].parameters))
+    arm = replace(case.arm, masses=np.zeros_like(case.arm.masses))
+    table = replace(case.recordings, payload=np.linspace(0, 6, len(case.recordings)))
+    (placed, *_) = [p for p in JOINT_COMPLIANCE.place(arm, table) if p.location == "joint 2"]
+    part = Part(placed, np.full(len(placed.terms), 1e-7))
+    assert "No masses are stated" in task_of(Scene(arm, table), replace(cause, parts=(part,)), told).cure
 
 
 def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:

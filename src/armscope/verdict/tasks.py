@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.effect import Effect, Part
+from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
@@ -116,7 +117,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         motion="" if said_already else _motion(scene, cause.parts, zero=cause.zero if effect.nameless else None),
         instruction=instruction,
         cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}"
-        + (BEYOND_THE_RULE if cause.unsaid is not None else ""),
+        + _beyond_the_rule(scene.arm, cause, told),
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
         members=(effect.as_member,),
@@ -162,6 +163,10 @@ BEYOND_THE_RULE = (
     " The mass moments behind this number were fitted, too, and stand in no rule: the error expected is that of the "
     "stated masses, and only armscope compensate takes out the rest."
 )
+LOAD_NOT_KNOWN = (
+    " No masses are stated, so this load cannot be calculated from the robot's file: the mass moments were fitted, "
+    "too, and armscope compensate has them."
+)
 NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
 """Without masses, what gives way is known by the product with them, which the model file has."""
 
@@ -199,6 +204,14 @@ def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
         return there
     own = angle(cause.zero) if effect.curve.value_unit == "rad" else length(1e3 * cause.zero)
     return f"{there} It holds the joint's own zero, {own}, too, which no other step sets."
+
+
+def _beyond_the_rule(arm: Arm, cause: Repair, told: Mapping[str, Parameter]) -> str:
+    """Behind a compliance that is not all that was fitted: what its formula leaves, or that nobody can calculate it."""
+    if cause.unsaid is not None:
+        return BEYOND_THE_RULE
+    free = any(part.placed.variant == UNKNOWN_MASSES for part in cause.parts)
+    return LOAD_NOT_KNOWN if free and "compliance" in told and not arm.has_masses else ""
 
 
 def _formula(rule: str) -> str:
