@@ -40,6 +40,6 @@ def test_small_errors_without_a_name_are_not_to_be_stored_by_hand(family: str) -
     """Hundreds of waves that no page prints: only what is named has numbers to enter."""
     told = cure_of_family(family, (), everywhere=True)
     assert "No table" in told
-    assert "armscope compensate" in told
+    assert "(`armscope compensate`), in place of all other steps" in told
     pair = [verdicts.compliance("joint 2"), verdicts.compliance("joint 3")]
     assert "named" in cure_of_family(family, pair, everywhere=True)

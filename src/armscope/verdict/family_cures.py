@@ -25,9 +25,11 @@ _CURES = {
 """What mends a family where it has several members or small errors everywhere."""
 
 _NO_TABLE = "No table of these is printed: they are small, and many (model.yaml has them under `background`). "
+_ALL_AT_ONCE = ", in place of all other steps, which it takes out, too"
 _WITHOUT_A_NAME = {
-    "elastic": f"{_NO_TABLE}Compensate for the deflection in the commands (`armscope compensate`).",
-    "transmission": f"{_NO_TABLE}Compensate for them in the commands (`armscope compensate`); replace the worst gear.",
+    "elastic": f"{_NO_TABLE}Compensate for the deflection in the commands (`armscope compensate`){_ALL_AT_ONCE}.",
+    "transmission": f"{_NO_TABLE}Replace the worst gear, or compensate for them in the commands (`armscope compensate`)"
+    f"{_ALL_AT_ONCE}.",
 }
 """Where a family has small errors everywhere and no member: nobody can store hundreds of waves that no page prints."""
 
