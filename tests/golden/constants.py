@@ -93,13 +93,14 @@ def _trial(
 
 
 def _content(verdict: Any) -> Any:
-    from armscope.verdict.files import curves_table, next_poses_table
+    from armscope.verdict.curves import curves_table
+    from armscope.verdict.files import next_poses_table
 
     content = {"verdict": verdict.to_json(), "weights": verdict.residuals.weight}
     if verdict.next_poses is not None:
         content["next_poses"] = next_poses_table(verdict).to_dict("list")
-    if any(effect.curve is not None for effect in verdict.effects):
-        content["curves"] = curves_table(verdict).to_dict("list")
+    if (curves := curves_table(verdict)) is not None:
+        content["curves"] = curves.to_dict("list")
     if verdict.atlas is not None:
         content["atlas"] = verdict.atlas.share
     return json.loads(json.dumps(content, default=lambda value: np.asarray(value).tolist()))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from armscope.physics.effect import Part
+from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import UNKNOWN
 from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
@@ -101,7 +102,7 @@ def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:
     rule = task_of(model.scene(case.recordings), cause, wave).cure
     formula, _, numbers = rule.partition("commanded = wanted - ")[2].partition(". Here ")
     assert formula == "amplitude x cos(per_turn x wanted - phase)"
-    assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11°."
+    assert numbers == "amplitude = +0.0344° (+0.600 mrad ± 0.002), per_turn = 2, phase = −40.11° (± 0.22)."
 
 
 def test_how_far_something_jumped_has_its_interval() -> None:
@@ -125,6 +126,13 @@ def test_a_compliance_without_masses_has_no_number_to_enter_and_says_who_has_it(
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     assert "armscope compensate" in task_of(model.scene(case.recordings), cause, soft).cure
     assert "armscope compensate" not in task_of(model.scene(case.recordings), cause, cause.effects[0]).cure
+    # a payload gives the compliance itself, and the load is still one of masses that nobody stated
+    told = replace(cause.effects[0], parameters=(*products, *cause.effects[0].parameters))
+    arm = replace(case.arm, masses=np.zeros_like(case.arm.masses))
+    table = replace(case.recordings, payload=np.linspace(0, 6, len(case.recordings)))
+    (placed, *_) = [p for p in JOINT_COMPLIANCE.place(arm, table) if p.location == "joint 2"]
+    part = Part(placed, np.full(len(placed.terms), 1e-7))
+    assert "No masses are stated" in task_of(Scene(arm, table), replace(cause, parts=(part,)), told).cure
 
 
 def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
@@ -192,3 +200,24 @@ def test_a_cause_in_doubt_names_no_part_to_change_and_says_how_each_reading_show
     assert "bearing" not in before
     assert "bearing" in after
     assert "whichever it is" in task.cure
+
+
+def test_growth_and_compliances_have_their_numbers_and_intervals_behind_their_formulas() -> None:
+    """ "length = stated length x (1 + coefficient x ...)" stood without the coefficient."""
+    told = {}
+    for effect, place, parameter in (
+        ("thermal_expansion", "link 3", Parameter("coefficient", "1/K", 61e-6, 1.2e-6)),
+        ("joint_compliance", "joint 2", Parameter("compliance", "rad/(N m)", 6.18e-6, 4e-8)),
+        ("payload_error", "payload", Parameter("mass", "kg", 2.43, 0.05)),
+        ("payload_error", "payload", Parameter("com_z", "mm", 122.0, 8.0)),
+    ):
+        found = verdicts.found(effect, place, parameter)
+        case = verdicts.case(effects=(found,))
+        model, (cause,) = case.verdict.model, contributions(case.verdict).causes
+        told[parameter.name] = task_of(model.scene(case.recordings), cause, found).cure.partition(" Here ")[2]
+    assert told == {
+        "coefficient": "coefficient = 61.0 millionths per K (± 2.4).",
+        "compliance": "compliance = 6.180 µrad per N m (± 0.078).",
+        "mass": "mass = 2.430 kg (± 0.098).",
+        "com_z": "com z = 122.0 mm (± 15.7).",
+    }

@@ -90,23 +90,6 @@ def test_steps_that_pay_less_unfold_and_go_on_counting(monkeypatch, verdict, tmp
     assert page.count('<div class="task">') == len(done)
 
 
-def test_causes_that_work_against_each_other_are_commanded_away_together() -> None:
-    """Each alone would make it worse; together they are all of the error."""
-    against = [verdicts.found("joint_offset", f"joint {n}", Parameter("offset", "rad", 1e-3, 1e-5)) for n in (2, 3)]
-    case = verdicts.case(effects=tuple(against))
-    worth = contributions(case.verdict)
-    large, error = np.random.default_rng(0).normal(0, 1, (2, *worth.left.shape))
-    first, second = worth.causes
-    moved = (replace(first, moved=large), replace(second, moved=0.2 * error - large))
-    worth = replace(worth, causes=moved, small={}, left=0.02 * worth.left)
-    order = work_order(case.verdict, worth)
-    assert [task.change for task in order.tasks] == ["corrected commands"]
-    assert "joint 2" in order.tasks[0].instruction
-    assert "joint 3" in order.tasks[0].instruction
-    assert order.tasks[0].then_mm == pytest.approx(rms(worth.left))
-    assert not order.besides
-
-
 def test_what_pays_only_after_the_others_is_told_so_and_comes_after_them() -> None:
     """A cause that hides part of another: alone its cure makes the error larger."""
     two = [verdicts.found("joint_offset", f"joint {n}", Parameter("offset", "rad", 1e-3, 1e-5)) for n in (2, 3)]
@@ -230,6 +213,7 @@ def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
     tasks = work_order(replace(case.verdict, causes=(told,)), worth).tasks
     assert [task.place for task in tasks] == ["joint 2", "joints 3 and 5"]
     assert "commanded = wanted - curve" in tasks[1].instruction
+    assert all(f"curves.csv (unknown, joint {n}, " in tasks[1].cure for n in (3, 5))
     assert tasks[1].then_mm == pytest.approx(rms(worth.left))
     ranking = locations._ranking(replace(case.verdict, causes=(told,)))
     assert "Unexplained curves at joints 3 and 5" in [place.name for place in ranking]

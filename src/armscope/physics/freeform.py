@@ -225,7 +225,7 @@ UNKNOWN = Effect(
     "Something here follows its driver in a way that none of the library's effects explains.",
     "Measure this joint alone in fine steps over the driver's range.",
     command(
-        "Correct by the fitted curve until its cause is found: commanded = wanted - curve.",
+        "Correct by the fitted curve (curves.csv) until its cause is found: commanded = wanted - curve.",
         change="correction table",
         instruction="Find what it follows; until then store its curve as a correction table.",
     ),

@@ -106,8 +106,9 @@ PAYLOAD_ERROR = Effect(
     "The payload's mass or centre of mass is other than stated, so everything that gives way is loaded differently.",
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     Cure(
-        "Correct the payload's data in the controller: mass = stated mass + mass, centre = stated centre + com. The "
-        "deflection is then compensated with the right load.",
+        "Correct the payload's data in the controller: mass = stated mass + mass (a share: x (1 + share)); "
+        "centre = stated centre + com, in the last frame's axes; what is not named stays as stated. The deflection is "
+        "then compensated with the right load.",
         statement=_restated,
         change="payload data",
         instruction="Weigh the load and correct mass and centre of mass in the controller.",

@@ -14,11 +14,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.averages import rms
+from armscope.core.location import Location
 from armscope.core.rotations import turn_onto
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
-from armscope.physics.effect import AXES, Direction, Part
+from armscope.physics.effect import AXES, Direction, Driver, Part
+from armscope.physics.elastic import UNKNOWN_MASSES, drive
+from armscope.physics.model import FittedModel
+from armscope.physics.registry import effect_named
 from armscope.physics.scene import Posture
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
@@ -32,18 +36,34 @@ SEEN = 0.01
 """Share of the error from which small errors of a family have a switch."""
 FAR_TURN = 2e-3
 """A turn (rad) whose second order is two micrometres at a metre: beyond it a base is turned back exactly."""
+FELT = 0.01
+"""Share of what a curve moves from which its constant is told: its square is a ten-thousandth."""
+MOST_READ = 20_000
+"""Rows over which a curve's mean is taken."""
 MOST_CAUSES = 6
 """More major effects than this are taken together with the minor ones."""
 
 
 @dataclass(frozen=True, eq=False)
 class Repair:
-    """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free."""
+    """Effects that are cured together, with their contribution (n, 3), mm in base axes; NaN-free.
+
+    `zero` is the joint's own zero, rad, that a curve's correction has to hold (`Ground.own_zero`); `unsaid` (n, 3) is
+    what the model moves beyond `moved`, where a cure as worded cannot take out all of it (`Ground.as_worded`).
+    """
 
     name: str
     effects: tuple[FoundEffect, ...]
     parts: tuple[Part, ...]
     moved: Array
+    zero: float = 0.0
+    unsaid: Array | None = None
+
+    @property
+    def requires(self) -> str:
+        """The family without whose correction curing them does nothing; "" for none."""
+        known = effect_named(self.effects[0].effect) if len(self.effects) == 1 else None
+        return known.requires if known else ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +104,8 @@ class Contributions:
     def before(self) -> Array:
         """(n, 3) nothing cured."""
         everything = [cause.moved for cause in (*self.causes, *([self.smaller] if self.smaller else []))]
-        return np.asarray(self.left + self.everywhere + sum(everything))
+        unsaid = [cause.unsaid for cause in self.causes if cause.unsaid is not None]
+        return np.asarray(self.left + self.everywhere + sum(everything) + sum(unsaid))
 
     def cured(self, causes: Sequence[int]) -> float:
         """RMS per axis, mm, once these of the causes are cured and nothing else."""
@@ -118,8 +139,44 @@ class Ground:
             return np.zeros((len(self.rows), 3))
         out, model = {id(part) for part in parts}, self.verdict.model
         kept, small = (tuple(p for p in some if id(p) not in out) for some in (model.parts, model.background))
-        others = replace(model, parts=kept, background=small)
+        return self._without(replace(model, parts=kept, background=small))
+
+    def _without(self, others: FittedModel) -> Array:
         return self.free(1e3 * (self.posture.tool - self._brought_back(others.posture(self.posture.scene).tool)))
+
+    def as_worded(self, effect: FoundEffect, parts: Sequence[Part]) -> Array | None:
+        """(n, 3) how far the tool moves, mm, when a cause is cured by the numbers in its rule; None: as it was fitted.
+
+        A drive whose mass moments were fitted, too, is commanded away by compliance x load, and that load comes from
+        the stated masses: what the fitted moments add to it is in no rule.
+        """
+        named = [p.value for p in effect.parameters if p.name == "compliance"]
+        arm, scene = self.verdict.model.arm, self.posture.scene
+        if [p.placed.variant for p in parts] != [UNKNOWN_MASSES] or not (named and arm.has_masses):
+            return None
+        (placed,) = (part.placed for part in parts)
+        j = Location.of(placed.location).number
+        stated = replace(placed, terms=(drive(scene, j, Driver("torque", (j,))),), prior_scale=(1.0,), variant="")
+        cured = Part(stated, np.array([-named[0]]))
+        return self._without(replace(self.verdict.model, parts=(*self.verdict.model.parts, cured)))
+
+    def own_zero(self, effect: FoundEffect, parts: Sequence[Part]) -> float:
+        """The constant (rad or m) that a correction by a joint's curve must hold beside the curve's shape.
+
+        It is the joint's zero. Where small errors of geometry are fitted, they hold it, and the part's mean is 0; at
+        the first and the last joint it is a turn of base or tool, which are placed anyway. Elsewhere no other step sets
+        it: a table without it leaves the tool where the zero puts it.
+        """
+        if not effect.nameless or effect.curve is None or not any(p.placed.effect.cure.commanded for p in parts):
+            return 0.0
+        table = self.verdict.recordings
+        amounts = self.verdict.model.scene(table.rows(spread_evenly(len(table), MOST_READ))).amounts(parts)
+        direction, turned = next(iter(amounts.items()), (None, np.zeros(1)))
+        moved = None if direction is None else self.posture.displacement(direction)
+        if moved is None or direction is None or Location.of(direction.location).kind != "motor":
+            return 0.0
+        zero = float(np.mean(turned))
+        return zero if rms(self.free(1e3 * zero * moved)) > FELT * rms(self.moved_by(parts)) else 0.0
 
     def _brought_back(self, points: Array) -> Array:
         """(n, 3) points with the bases turned back where they lie far off, m.
@@ -186,7 +243,12 @@ def contributions(verdict: Diagnosis) -> Contributions:
     main, minor = main_and_minor(verdict.effects)
 
     def alone(effect: FoundEffect) -> Repair:
-        return Repair(effect.title, (effect,), parts[id(effect)], ground.moved_by(parts[id(effect)]))
+        its = parts[id(effect)]
+        fitted, worded = ground.moved_by(its), ground.as_worded(effect, its)
+        zero = ground.own_zero(effect, its)
+        if worded is None:
+            return Repair(effect.title, (effect,), its, fitted, zero)
+        return Repair(effect.title, (effect,), its, worded, zero, fitted - worded)
 
     causes = tuple(alone(effect) for effect in main[:MOST_CAUSES])
     rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
@@ -194,7 +256,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None
     single = tuple(alone(effect) for effect in rest)
-    named = (cause.moved for cause in (*causes, *([smaller] if smaller else [])))
+    named = [cause.moved for cause in (*causes, *([smaller] if smaller else []))]
+    named += [cause.unsaid for cause in causes if cause.unsaid is not None]
     left, small = ground.left_and_small(sum(named, np.zeros((len(ground.rows), 3))))
     return Contributions(ground.rows, left, causes, smaller, small, single)
 

@@ -10,19 +10,28 @@ _CURES = {
     "geometric": "Calibrate the geometry: measure once more, and put the zeros and D-H rows that `armscope calibrate` "
     "finds into the controller; or let the fitted model's inverse kinematics compute "
     "the commands (`armscope compensate`).",
-    "elastic": "Give the controller the fitted compliances and the true loads, or compensate for the "
+    "elastic": "Give the controller the fitted compliances of what is named and the true loads, or compensate for the "
     "deflection in the commands (`armscope compensate`).",
-    "transmission": "Store the fitted waves, ratios and play as corrections of the joints, or compensate for them in "
-    "the commands (`armscope compensate`); replace the worst gear.",
+    "transmission": "Store the fitted waves, ratios and play of the joints named as corrections, or compensate for "
+    "them in the commands (`armscope compensate`); replace the worst gear.",
     "thermal": "Warm the arm up before work and measure at the temperature of work; or compensate for the growth in "
     "the commands, at the temperature of the day (`armscope compensate`).",
     "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again: what is fitted here "
     "describes this recording, not the arm.",
     "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "
     "curves (curves.csv) as correction tables, commanded = wanted - curve, or compensate for them in the commands "
-    "(`armscope compensate`). The tables hold the curves about their means, which the joints' zeros take up.",
+    "(`armscope compensate`). The tables hold the joints' own zeros where no other step sets them.",
 }
 """What mends a family where it has several members or small errors everywhere."""
+
+_NO_TABLE = "No table of these is printed: they are small, and many (model.yaml has them under `background`). "
+_ALL_AT_ONCE = ", in place of all other steps, which it takes out, too"
+_WITHOUT_A_NAME = {
+    "elastic": f"{_NO_TABLE}Compensate for the deflection in the commands (`armscope compensate`){_ALL_AT_ONCE}.",
+    "transmission": f"{_NO_TABLE}Replace the worst gear, or compensate for them in the commands (`armscope compensate`)"
+    f"{_ALL_AT_ONCE}.",
+}
+"""Where a family has small errors everywhere and no member: nobody can store hundreds of waves that no page prints."""
 
 WARMING = (
     "Let the arm warm up before you measure and before work; record `temperature_c` (best the link's own) beside the "
@@ -54,5 +63,7 @@ def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool
         return members[0].cure
     if warms(family, worst) and not members:
         return WARMING
+    if not members and family in _WITHOUT_A_NAME:
+        return _WITHOUT_A_NAME[family]
     mend = _CURES.get(family, members[0].cure if members else "")
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

@@ -10,8 +10,9 @@ import pandas as pd
 from armscope.core.files import read_json, write_json, write_table
 from armscope.physics.model_file import save_model
 from armscope.recordings.columns import angle_columns
+from armscope.verdict.curves import curves_table
 from armscope.verdict.diagnosis import Atlas, Diagnosis
-from armscope.verdict.filenames import VERDICT
+from armscope.verdict.filenames import CURVES, VERDICT
 from armscope.verdict.schema import Verdict
 
 
@@ -38,8 +39,8 @@ def write_verdict(verdict: Diagnosis, folder: Path | str) -> None:
     write_table(folder / "suspects.csv", suspects)
     if verdict.next_poses is not None:
         write_table(folder / "next_poses.csv", next_poses_table(verdict))
-    if any(effect.curve is not None for effect in verdict.effects):
-        write_table(folder / "curves.csv", curves_table(verdict))
+    if (curves := curves_table(verdict)) is not None:
+        write_table(folder / CURVES, curves)
     if verdict.atlas is not None:
         write_table(folder / "atlas.csv", atlas_table(verdict.atlas))
 
@@ -67,27 +68,6 @@ def next_poses_table(verdict: Diagnosis) -> pd.DataFrame:
     table["payload_kg"] = poses.payload_kg
     table["separation_mm"] = poses.separation_mm
     return table
-
-
-def curves_table(verdict: Diagnosis) -> pd.DataFrame:
-    """Every effect's curve over its driver, one row per point."""
-    pieces = [
-        pd.DataFrame(
-            {
-                "effect": effect.effect,
-                "location": effect.location,
-                "driver": effect.curve.driver,
-                "at": effect.curve.at,
-                "at_unit": effect.curve.driver_unit,
-                "value": effect.curve.value,
-                "stderr": effect.curve.stderr,
-                "unit": effect.curve.value_unit,
-            }
-        )
-        for effect in verdict.effects
-        if effect.curve is not None
-    ]
-    return pd.concat(pieces, ignore_index=True)
 
 
 def atlas_table(atlas: Atlas) -> pd.DataFrame:

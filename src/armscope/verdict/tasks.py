@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.effect import Effect, Part
+from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
@@ -21,8 +22,10 @@ from armscope.verdict.corrections import corrected_origin, place_and_angles
 from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length, with_sign
+from armscope.verdict.filenames import CURVES
+from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
-from armscope.verdict.wording import capitalised, implausible, read_parameter
+from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
 
 LEAST_TURN = 5e-5
 """Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
@@ -44,6 +47,10 @@ class Task:
         alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
         only_after: it pays only once all before it is done: alone it would make the error larger.
         instead: it stands in place of all before it, and holds them.
+        members: "effect at location" of what it cures; none for what is everywhere.
+        family: of what it cures.
+        requires: the family without whose correction it does nothing: a payload's data act through what gives way.
+        needs: what has to be done first for that, in words.
     """
 
     what: str
@@ -58,6 +65,10 @@ class Task:
     then_mm: float = math.nan
     only_after: bool = False
     instead: bool = False
+    members: tuple[str, ...] = ()
+    family: str = ""
+    requires: str = ""
+    needs: str = ""
 
 
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
@@ -97,16 +108,21 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
     opposite_told = known is not None and "{opposite}" in known.cure.instruction
     said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
-    instruction = known.cure.instruction.format(**words) if known else ""
+    instruction = instruction_of(effect, scene.arm, known.cure.instruction.format(**words)) if known else ""
+    rule = (known.cure.rule if known else effect.cure).replace("`", "")
     task = Task(
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
-        motion="" if said_already else _motion(scene, cause.parts, about_mean=effect.nameless),
+        motion="" if said_already else _motion(scene, cause.parts, zero=cause.zero if effect.nameless else None),
         instruction=instruction,
-        cure=with_numbers((known.cure.rule if known else effect.cure).replace("`", ""), told.values(), effect.effect),
+        cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}"
+        + _beyond_the_rule(scene.arm, cause, told),
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
+        members=(effect.as_member,),
+        family=effect.family,
+        requires=known.requires if known else "",
     )
     doubt = doubt_of(effect, asked)
     return task if doubt is None else _in_doubt(task, doubt)
@@ -141,7 +157,16 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     return f"joint {arm.joint_names[joint - 1]}'s origin", '<origin xyz="{}" rpy="{}"/>'.format(*numbers)
 
 
-FORMULA = "commanded = "
+FORMULA = re.compile(r"(?:commanded|length|mass) = (.*)", re.DOTALL)
+"""What a rule's numbers are named in; a row's and a zero's stand in their instructions."""
+BEYOND_THE_RULE = (
+    " The mass moments behind this number were fitted, too, and stand in no rule: the error expected is that of the "
+    "stated masses, and only armscope compensate takes out the rest."
+)
+LOAD_NOT_KNOWN = (
+    " No masses are stated, so this load cannot be calculated from the robot's file: the mass moments were fitted, "
+    "too, and armscope compensate has them."
+)
 NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
 """Without masses, what gives way is known by the product with them, which the model file has."""
 
@@ -157,12 +182,41 @@ def with_numbers(rule: str, parameters: Iterable[Parameter], effect: str) -> str
     Returns:
         The rule; it says so where nobody knows the number that it needs.
     """
-    formula = rule.partition(FORMULA)[2]
+    formula = _formula(rule)
+    words = dict.fromkeys(re.findall(r"\w+", formula))
     known = {p.name: p for p in parameters}
-    named = [known[name] for name in dict.fromkeys(re.findall(r"\w+", formula)) if name in known]
+    centre = [name for name in known if name.startswith("com_")] if "com" in words else []
+    named = [known[name] for name in (*words, *centre) if name in known]
     if named:
-        return f"{rule} Here {', '.join(f'{p.name} = {_number(p, effect)}' for p in named)}."
+        numbers = (f"{p.name.replace('com_', 'com ')} = {_number(p, effect)}" for p in named)
+        return f"{rule} Here {', '.join(numbers)}."
     return f"{rule} {NO_NUMBER}" if "compliance" in formula else rule
+
+
+def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
+    """Behind a rule that subtracts a curve: where its numbers are, and what of them is the joint's zero."""
+    if not _formula(rule).startswith("wanted - curve"):
+        return ""
+    if effect.curve is None:
+        return " Its numbers are in model.yaml alone: let armscope compensate compute the commands."
+    there = f" The curve is in {CURVES} ({effect.effect}, {effect.location}, {effect.driver}): value over at."
+    if not cause.zero:
+        return there
+    own = angle(cause.zero) if effect.curve.value_unit == "rad" else length(1e3 * cause.zero)
+    return f"{there} It holds the joint's own zero, {own}, too, which no other step sets."
+
+
+def _beyond_the_rule(arm: Arm, cause: Repair, told: Mapping[str, Parameter]) -> str:
+    """Behind a compliance that is not all that was fitted: what its formula leaves, or that nobody can calculate it."""
+    if cause.unsaid is not None:
+        return BEYOND_THE_RULE
+    free = any(part.placed.variant == UNKNOWN_MASSES for part in cause.parts)
+    return LOAD_NOT_KNOWN if free and "compliance" in told and not arm.has_masses else ""
+
+
+def _formula(rule: str) -> str:
+    found = FORMULA.search(rule)
+    return found[1] if found else ""
 
 
 def _number(parameter: Parameter, effect: str) -> str:
@@ -170,7 +224,7 @@ def _number(parameter: Parameter, effect: str) -> str:
         return f"{parameter.value:g}"
     if parameter.unit == "rad" and parameter.name != "phase":
         return angle(parameter.value, parameter.stderr)
-    return read_parameter(parameter, effect).value
+    return f"{read_parameter(parameter, effect).value}{half_interval(parameter)}"
 
 
 def _jump(effect: FoundEffect) -> str:
@@ -196,14 +250,14 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bool = False) -> str:
+def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, zero: float | None = None) -> str:
     """The largest turn and shift of parts over the recorded rows, in words, with signs.
 
     Args:
         scene: the rows.
         parts: that move.
         sign: -1 to undo them.
-        about_mean: without what the joint's zero, the base or the tool may take up, too, as in a free curve.
+        zero: what stands in the place of the mean, as in a curve's table; None for the motion as it is.
 
     Returns:
         Which place moves how, from ... to.
@@ -221,7 +275,7 @@ def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bo
     for verb, found in amounts.items():
         if found:
             name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
-            amount = amount - amount.mean() if about_mean else amount
+            amount = amount if zero is None else amount - amount.mean() + zero
             if np.abs(amount).max() > 0:
                 told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
     return "; ".join(told)

@@ -86,8 +86,7 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
     definition = effect_named(effect)
     labels = {**LABELS, **(definition.labels if definition else {})}
     label = labels.get(parameter.name, parameter.name.replace("_", " "))
-    if parameter.name in ("phase", "direction"):
-        parameter = Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
+    parameter = _in_degrees(parameter)
     factor, unit = shown_unit(parameter.unit, abs(parameter.value))
     known = math.isfinite(parameter.stderr) and parameter.stderr > 0
     low, high = (factor * edge for edge in parameter.interval)
@@ -96,6 +95,21 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
     value = f"{_number(factor * parameter.value, decimals)} {unit}".strip().replace(" °", "°")
     interval = f"{_number(low, decimals)} … {_number(high, decimals)} {unit}" if known else "found by trying values"
     return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))
+
+
+def half_interval(parameter: Parameter) -> str:
+    """ " (± 0.21)": half of a parameter's 95 % interval, in the unit in which it is read; "" where it is not known."""
+    parameter = _in_degrees(parameter)
+    if not (math.isfinite(parameter.stderr) and parameter.stderr > 0):
+        return ""
+    factor, _ = shown_unit(parameter.unit, abs(parameter.value))
+    return f" (± {_number(factor * INTERVAL * parameter.stderr, decimals_for(factor * parameter.stderr))})"
+
+
+def _in_degrees(parameter: Parameter) -> Parameter:
+    if parameter.name not in ("phase", "direction"):
+        return parameter
+    return Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
 
 
 def spelled(count: int) -> str:

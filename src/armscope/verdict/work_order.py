@@ -12,6 +12,7 @@ from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRA
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause
+from armscope.verdict.entered_together import Job, in_one_step, moved_by, pays_together
 from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.tasks import Task, task_of
@@ -41,6 +42,8 @@ NOT_ON_TOP = (
 )
 """The model file holds the arm as it was recorded: a zero set anew and commanded away is off by as much again."""
 NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
+DOES_NOTHING = "by itself it changes nothing: payload data act only where what gives way is corrected, by {}"
+"""In place of what a payload's correction alone would leave."""
 MOST_ROWS = 20_000
 """In which a repair's motion is looked for: all frames of a million rows would take four gigabytes."""
 
@@ -51,7 +54,8 @@ class WorkOrder:
 
     Attributes:
         tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays
-            only after that (minor effects, too, where it is much), and corrected commands for what pays together.
+            only after that (minor effects, too, where it is much), what pays only together as one step, and corrected
+            commands for what is left.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
     """
 
@@ -63,6 +67,26 @@ class WorkOrder:
         """What must not be done together; "" where there is one step, or none that corrects commands by the model."""
         by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
         return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
+
+    def step_of(self, member: str) -> str:
+        """Where a number that stands in a table belongs, in words: an entry by itself may make the error larger.
+
+        Args:
+            member: "effect at location".
+
+        Returns:
+            The step and what it must not be done without.
+        """
+        for number, task in enumerate(self.tasks, start=1):
+            if member not in task.members:
+                continue
+            if task.change == ALL_AT_ONCE[GEOMETRIC]:
+                return f"by the calibration of step {number}, not besides"
+            if len(task.members) > 1:
+                others = places_in_words([each.partition(" at ")[2] for each in task.members if each != member])
+                return f"step {number}, only together with {others}"
+            return f"step {number}{', not before the steps above it' if task.only_after else ''}"
+        return "no step: alone it does not lower the error"
 
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
@@ -82,7 +106,9 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     small = [(_everywhere(family, worst[family]), moved) for family, moved in worth.small.items() if family in worst]
     before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
-    first, left, _ = _by_gain([job for job in repairs if alone[id(job[0])] < before], worth.before)
+    each_pays = [job for job in repairs if alone[id(job[0])] < before]
+    not_yet = [job for job in repairs if not _among(job, each_pays)]
+    first, left, _ = _by_gain([job for job in each_pays if not _awaits(job, not_yet)], worth.before)
     families = [each.effects[0].family for each in (*worth.causes, *single)] + [cause.family for cause, _ in told]
     of_geometry = zip((*major, *minor, *together), families, strict=True)
     geometric = [job for job, family in of_geometry if family == GEOMETRIC and not _among(job, first)]
@@ -97,10 +123,18 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         last, unpaid, geometric = [*last, *more], [*unpaid, *waiting], []
     smaller, left, _ = _by_gain([job for job in minor if not _among(job, geometric)], left, WORTH_OF_MINOR)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
+    against = pays_together(unpaid, left)
+    if against:  # each alone makes it worse: one step of all, and what pays after it
+        joint = (in_one_step(against), moved_by(against))
+        alone[id(joint[0])] = rms(worth.before - joint[1])
+        waiting = [job for job in unpaid if not _among(job, against)]
+        more, left, unpaid = _by_gain([joint, *waiting], left)
+        smaller = [*smaller, *more]
     done = [
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
         for task, then_mm in (*first, *then, *last, *smaller)
     ]
+    done = [_after_what_it_needs(task, done[:n]) for n, task in enumerate(done)]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
         names = [what[:1].lower() + what[1:] for what in moving]
@@ -135,8 +169,9 @@ def _as_one(cause: Cause, members: Sequence[Repair], jobs: Sequence[Job]) -> Job
         change=enumerated(list(changes)),
         motion="; ".join(task.motion for task in tasks if task.motion),
         instruction=cause.cure.replace("`", ""),
-        cure="",
+        cure=" ".join(f"{capitalised(task.place)}: {task.cure}" for task in tasks),
         confirm=" ".join(dict.fromkeys(task.confirm for task in tasks)),
+        members=tuple(member for task in tasks for member in task.members),
     )
     return task, moved
 
@@ -159,23 +194,37 @@ def _together(names: Sequence[str], left_mm: float, instead: bool) -> Task:
     )
 
 
-Job = tuple[Task, Array]
-"""A task, and what the tool moves by what it cures."""
-
-
 def _by_gain(
     waiting: Sequence[Job], left: Array, least: float = LEAST_GAIN
 ) -> tuple[list[tuple[Task, float]], Array, list[Job]]:
     """Tasks in the order in which they pay, with the error after each; what is left then; and those that don't pay."""
     done, waiting = [], list(waiting)
     while waiting:
-        best = min(waiting, key=lambda job: rms(left - job[1]))
+        ready = [job for job in waiting if not _awaits(job, waiting)]
+        if not ready:
+            break
+        best = min(ready, key=lambda job: rms(left - job[1]))
         if rms(left - best[1]) > (1 - least) * rms(left):
             break
         left = left - best[1]
         done.append((best[0], rms(left)))
         waiting = [job for job in waiting if job is not best]
     return done, left, waiting
+
+
+def _awaits(job: Job, others: Sequence[Job]) -> bool:
+    """Whether one of the others has to be done before a task has any effect."""
+    needed = (task for task, _ in others if task.members and not task.requires)
+    return bool(job[0].requires) and any(task.family == job[0].requires for task in needed)
+
+
+def _after_what_it_needs(task: Task, before: Sequence[Task]) -> Task:
+    """A task that does nothing by itself, with the steps that it needs; any other as it is."""
+    if not task.requires:
+        return task
+    steps = [str(n) for n, each in enumerate(before, start=1) if each.family == task.requires and not each.requires]
+    which = f"step{'s' * (len(steps) > 1)} {enumerated(steps)}" if steps else COMPENSATE
+    return replace(task, needs=DOES_NOTHING.format(which), only_after=False)
 
 
 def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:
@@ -192,7 +241,8 @@ def _calibrating(calibration: Job, geometric: Sequence[Job]) -> Job:
         return calibration
     names = places_in_words(list(dict.fromkeys(other.place for other, _ in geometric)))
     instruction = f"{task.instruction} This puts right {names}, too: change nothing there besides."
-    return replace(task, instruction=instruction), sum((each for _, each in geometric), moved)
+    members = tuple(member for other, _ in geometric for member in other.members)
+    return replace(task, instruction=instruction, members=members), sum((each for _, each in geometric), moved)
 
 
 def _everywhere(family: str, worst: str) -> Task:
@@ -206,4 +256,5 @@ def _everywhere(family: str, worst: str) -> Task:
         instruction=cure_of_family(family, (), True, worst).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
         cure="",
         confirm="Diagnose again after the repairs above: this is for what they leave.",
+        family=family,
     )

@@ -12,6 +12,7 @@ from markupsafe import Markup
 
 from armscope.core.averages import rms
 from armscope.core.files import write_table, write_text, write_yaml
+from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
 from armscope.report.sectioning import write_sections
@@ -30,10 +31,13 @@ from armscope.verdict.corrections import (
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
+from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
+from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
-from armscope.verdict.wording import millimetres, percent
+from armscope.verdict.wording import capitalised, millimetres, percent
+from armscope.verdict.work_order import WorkOrder
 
 ANSWERS = {
     "nothing missing": ("holds", "nothing is missing"),
@@ -65,6 +69,9 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
     """The work order as a page, and its numbers as tables."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
+    named = zeros["cause"] == "named"
+    steps = zeros["joint"].map(lambda joint: subject.order.step_of(f"{JOINT_OFFSET.name} at {joint}")).where(named, "")
+    zeros = zeros.assign(step="" if another_model(verdict) else steps)
     write_table(folder / ZEROS, as_entered(zeros))
     either = {ROWS: rows, ORIGINS: corrected_origins(verdict)}
     corrected = {name: table for name, table in either.items() if table is not None}
@@ -89,18 +96,32 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "dh": corrected_cells(verdict),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
+        "rows_with_others": _rows_with_others(subject.order),
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
-        "tables": [ZEROS, *corrected, *([UR] if kinematics else [])],
+        "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
 
-def _zeros_in_words(zeros: pd.DataFrame) -> list[tuple[str, str]]:
-    """(joint, by how much it is turned) of the zeros that were named."""
+def _rows_with_others(order: WorkOrder) -> str:
+    """Which corrected rows make it worse without something else that is set in the same step."""
+    rows = {m: order.step_of(m) for task in order.tasks for m in task.members if m.startswith(LINK_GEOMETRY.name)}
+    told = [f"{member.partition(' at ')[2]}: {step}" for member, step in rows.items() if "only together" in step]
+    return f"{capitalised('; '.join(told))}." if told else ""
+
+
+def _has_curves(verdict: Diagnosis) -> bool:
+    """Whether a step subtracts a curve."""
+    return any(effect.nameless and effect.curve is not None for effect in verdict.effects)
+
+
+def _zeros_in_words(zeros: pd.DataFrame) -> list[tuple[str, str, str]]:
+    """(joint, by how much it is turned, in which step it is set) of the zeros that were named."""
     named = zeros[zeros["cause"] == "named"]
     turns, halves = named["actual_minus_commanded_mrad"] * 1e-3, named["half_interval_95_mrad"] * 1e-3
-    return [(str(j), angle(turn, half / INTERVAL)) for j, turn, half in zip(named["joint"], turns, halves, strict=True)]
+    told = zip(named["joint"], turns, halves, named["step"], strict=True)
+    return [(str(j), angle(turn, half / INTERVAL), str(step)) for j, turn, half, step in told]
 
 
 def _about(verdict: Diagnosis) -> dict[str, Any]:
@@ -146,7 +167,7 @@ def _warns(notice: Notice, verdict: Diagnosis) -> bool:
     """Whether a notice stands above everything: it limits the whole verdict, and the headline doesn't say it."""
     if notice.text.rstrip(".").lower() in verdict.headline.lower():
         return False
-    return notice.kind in WARNINGS or verdict.mismatch is None
+    return notice.kind in WARNINGS or notice in of_payloads(verdict) or verdict.mismatch is None
 
 
 def _noise(verdict: Diagnosis) -> str:

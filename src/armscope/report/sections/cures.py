@@ -22,10 +22,18 @@ from armscope.verdict.wording import capitalised, millimetres, plain
 FINEST = 32_767
 """Errors are embedded as whole numbers of 16 bits: a part in so many of the largest."""
 
+AFTER = "only beside what gives way: alone it changes nothing"
+"""In place of what curing a wrong payload alone leaves."""
+
 
 def _context(subject: Subject) -> dict[str, Any]:
     worth, verdict = subject.worth, subject.verdict
     before = rms(worth.before)
+
+    awaiting = {cause.name for cause in worth.causes if cause.requires}
+
+    def cured(moved: Array) -> float:
+        return rms(worth.before - moved)
 
     def told(mm: float) -> str:
         return millimetres(subject.expected(mm))
@@ -35,7 +43,7 @@ def _context(subject: Subject) -> dict[str, Any]:
         "cures": Markup(json.dumps(_data(subject), separators=(",", ":"))),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "switches": [
-            (capitalised(plain(name)), f"alone: {told(before)} → {told(rms(worth.before - moved))}")
+            (capitalised(plain(name)), AFTER if name in awaiting else f"alone: {told(before)} → {told(cured(moved))}")
             for name, moved in worth.switches
         ],
         "shown": len(worth.rows),

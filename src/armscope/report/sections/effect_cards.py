@@ -67,13 +67,14 @@ class Card:
     figure: str = ""
 
 
-def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
+def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool = False) -> Card:
     """The card of the ``number``-th effect.
 
     Args:
         effect: what was found.
         number: from 1.
         figure: path of its curve's picture; empty where it has none.
+        masses_stated: whether the arm's description states its links' masses.
 
     Returns:
         What the template shows.
@@ -89,7 +90,7 @@ def card(effect: FoundEffect, number: int, figure: str = "") -> Card:
         share_width=min(100.0, max(0.0, 100 * effect.share)),
         size=millimetres(effect.rms_at_tool_mm),
         readings=shown,
-        remark=remark_on(effect, len(shown)),
+        remark=remark_on(effect, len(shown), masses_stated),
         shape=effect.curve.description if effect.curve else "",
         evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
         evidence_words=evidence_in_words(effect.evidence_nats),
@@ -148,6 +149,7 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
         return Reading(reading.label, "undetermined", "not determined by these poses")
     lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
     open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
+    open_mm = 0.0 if effect.location == "payload" else open_mm  # where a load sits moves no tool by as much
     if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.nameless:
         return reading
     return Reading(reading.label, "undetermined", "in these poses other parameters absorb it")
@@ -171,10 +173,24 @@ def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
     return [reach(effect.curve)]
 
 
-def remark_on(effect: FoundEffect, shown: int) -> str:
-    """What the listed numbers leave open."""
+def remark_on(effect: FoundEffect, shown: int, masses_stated: bool = False) -> str:
+    """What the listed numbers leave open.
+
+    Args:
+        effect: what was found.
+        shown: how many of its numbers are listed.
+        masses_stated: whether the arm's description states its links' masses.
+
+    Returns:
+        A sentence or two.
+    """
     names = [p.name for p in effect.parameters]
     if any(name.startswith(UNKNOWN_MASSES) for name in names):
+        if "compliance" in names and masses_stated:
+            return (
+                "The stated masses do not fit what this joint does: its mass moments were fitted beside the compliance "
+                "(model.yaml has them), whose scale the known payloads fix."
+            )
         if "compliance" in names:
             return "The links' masses are not known; the known payloads fix the scale of the compliance."
         return (

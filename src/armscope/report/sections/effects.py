@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from armscope.core.averages import rms
@@ -12,6 +13,7 @@ from armscope.report.sections.effect_cards import Card, card
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis, NextPoses
 from armscope.verdict.effects import FoundEffect
+from armscope.verdict.payload_place import carries_over
 from armscope.verdict.wording import main_and_minor, millimetres, percent
 
 
@@ -20,7 +22,9 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
     number = {id(effect): n for n, effect in enumerate(verdict.effects, start=1)}
 
     def as_card(effect: FoundEffect) -> Card:
-        return card(effect, number[id(effect)], f"curve_{number[id(effect)]}" if worth_drawing(effect) else "")
+        figure = f"curve_{number[id(effect)]}" if worth_drawing(effect) else ""
+        told = replace(effect, carries_over=carries_over(effect, verdict))
+        return card(told, number[id(effect)], figure, verdict.model.arm.has_masses)
 
     main, minor = main_and_minor(verdict.effects)
     return {
@@ -34,7 +38,8 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 
 
 def _context(subject: Subject) -> dict[str, Any]:
-    alone = {id(cause.effects[0]): subject.worth.cured([n]) for n, cause in enumerate(subject.worth.causes)}
+    # what does nothing by itself has no worth alone
+    alone = {id(c.effects[0]): subject.worth.cured([n]) for n, c in enumerate(subject.worth.causes) if not c.requires}
     main, _ = main_and_minor(subject.verdict.effects)
     before = millimetres(subject.expected(rms(subject.worth.before)))
     worth = [f"{before} → {millimetres(subject.expected(alone[id(e)]))}" if id(e) in alone else "" for e in main]
