@@ -46,7 +46,7 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
         promoted = _better_placed(edits, _promoted(edits.problem, told))
         weakest = edits.weakest(promoted)
         if weakest is None:
-            return as_plain_geometry(edits, space, promoted)
+            return as_plain_geometry(edits, promoted)
         hypothesis = _without(edits, hypothesis, promoted, weakest)
 
 

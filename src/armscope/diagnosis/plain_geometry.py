@@ -7,7 +7,6 @@ the corrected row takes the tool where it should go in either case; a new bearin
 
 from __future__ import annotations
 
-from armscope.diagnosis.model_space import EffectSpace
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
@@ -15,24 +14,22 @@ from armscope.physics.elastic import BEARING_COMPLIANCE, LINK_BENDING
 from armscope.physics.geometric import AXIS_WOBBLE, LINK_GEOMETRY
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
-LIKE_A_LINK = (BEARING_COMPLIANCE, LINK_BENDING, AXIS_WOBBLE)
+LIKE_A_LINK = {effect.name for effect in (BEARING_COMPLIANCE, LINK_BENDING, AXIS_WOBBLE)}
 """What turns a link's frame against its neighbour's, as an error of the link does."""
 
 
-def as_plain_geometry(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
+def as_plain_geometry(edits: Edits, hypothesis: Hypothesis) -> Hypothesis:
     """The hypothesis with a link's constant errors in place of each effect that explains the rows no better.
 
     Args:
         edits: of the search.
-        space: which effect each candidate is.
         hypothesis: named.
 
     Returns:
         The hypothesis with those names.
     """
-    links = {n for n, placed in enumerate(space.placed) if placed.effect is LINK_GEOMETRY}
-    others = set(range(len(space.placed))) - links
-    for effect in [c for c in hypothesis.chosen if space.placed[c.candidate].effect in LIKE_A_LINK]:
+    others = {n for n, candidate in enumerate(edits.space.candidates) if candidate.kind != LINK_GEOMETRY.name}
+    for effect in [c for c in hypothesis.chosen if edits.candidate(c.candidate).kind in LIKE_A_LINK]:
         instead = _as_good(edits, hypothesis, effect, others)
         hypothesis = hypothesis if instead is None else instead
     return hypothesis
