@@ -41,7 +41,7 @@ ANSWERS = {
     "partly explained": ("depends", "partly explained"),
     "cannot tell": ("depends", "cannot tell"),
 }
-WARNINGS = ("check", "gravity", "stated noise", "fewer rows than parameters", "too few rows", "implausible")
+WARNINGS = ("check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible")
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (
     "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
