@@ -11,7 +11,8 @@ from armscope.physics.freeform import UNKNOWN
 from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
-from armscope.verdict.contributions import contributions
+from armscope.physics.transmission import BACKLASH
+from armscope.verdict.contributions import Repair, contributions
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.tasks import task_of
@@ -39,6 +40,27 @@ def test_a_coupling_says_what_is_put_into_the_table_with_its_sign_and_once(size:
     assert put in task.instruction
     assert "table" not in task.cure
     assert "commanded = wanted - coupling x other" in task.cure
+
+
+def test_play_that_leads_its_command_is_a_sign_to_be_turned_and_no_gear_to_be_adjusted() -> None:
+    """Seen twice: "-497 urad of play. Adjust the gear", where the column's sign was wrong."""
+    play = verdicts.found(
+        "backlash", "joint 2", Parameter("gap", "rad", -5e-4, 1e-5), driver="side of approach of joint 2"
+    )
+    case = verdicts.case(effects=(play,))
+    table = replace(case.recordings, approach=np.sign(case.recordings.motor_angles))
+    scene = case.verdict.model.scene(table)
+    placed = next(p for p in BACKLASH.place(scene.arm, scene.recordings) if p.key == ("backlash", "joint 2"))
+    cause = Repair("play", (play,), (Part(placed, np.array([-5e-4])),), np.zeros((1, 3)))
+    task = task_of(scene, cause, play)
+    assert "has 0.50 mrad of play, if its column of approach has the wrong sign" in task.what
+    assert task.instruction.startswith("Turn the sign of joint 2's approach column")
+    assert "commanded = wanted - approach x gap / 2" in task.cure
+    right = replace(cause, parts=(Part(placed, np.array([5e-4])),))
+    told = task_of(scene, right, replace(play, parameters=(Parameter("gap", "rad", 5e-4, 1e-5),)))
+    assert told.what == "Joint 2 has 0.50 mrad of play"
+    assert "commanded = wanted + approach x gap / 2" in told.cure
+    assert "gravity" not in told.cure
 
 
 def test_a_cause_that_is_not_settled_is_settled_first() -> None:

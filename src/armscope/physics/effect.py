@@ -78,6 +78,7 @@ class Effect:
         nonnegative: its one value is not negative: what gives way does so along its load.
         several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
         contained_in: free curves, by driver, that hold it as a special case at the same location.
+        below_zero: in whose words it is told where its one value is below zero, which the physics does not allow.
         exact: its motion where the terms are only the slope: (direction, amount (N,)) of a part at a scene's rows.
     """
 
@@ -98,9 +99,14 @@ class Effect:
     nonnegative: bool = False
     several: bool = False
     contained_in: tuple[str, ...] = ()
+    below_zero: Effect | None = field(default=None, repr=False, compare=False)
     exact: Callable[[LoadedArm, Part], Iterable[tuple[Direction, Array]]] | None = field(
         default=None, repr=False, compare=False
     )
+
+    def told_as(self, value: float) -> Effect:
+        """The definition in whose words it is told, by the first of its values."""
+        return self.below_zero if self.below_zero is not None and value < 0 else self
 
 
 @dataclass(frozen=True)

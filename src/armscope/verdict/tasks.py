@@ -129,8 +129,8 @@ def _in_doubt(task: Task, doubt: Doubt) -> Task:
 def _definition(cause: Repair, effect: FoundEffect) -> Effect | None:
     """What defines an effect: as it was placed, since a variant may have a cure of its own."""
     key = (effect.effect, effect.location)
-    placed = (part.placed for part in cause.parts if (part.placed.name, part.placed.location) == key)
-    return next((each.effect for each in placed), effect_named(effect.effect))
+    own = (part for part in cause.parts if (part.placed.name, part.placed.location) == key)
+    return next((part.placed.effect.told_as(float(part.values[0])) for part in own), effect_named(effect.effect))
 
 
 def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
