@@ -52,6 +52,9 @@ __all__ = [
     "term",
 ]
 
+FORMULA = "commanded = "
+"""How a rule by which something is commanded away begins."""
+
 Family = Literal["frame", "geometric", "transmission", "elastic", "thermal", "drift", "instrument", "unknown"]
 
 
@@ -222,6 +225,8 @@ class Cure:
     def rule(self) -> str:
         """What a work order says beside its instruction, which is the first half at length: what else can be done."""
         said = self.otherwise if self.instruction else ""
+        if "{correction}" in self.instruction and FORMULA in said:  # the instruction says so, with its range
+            return FORMULA + said.partition(FORMULA)[2]
         return said[:1].upper() + said[1:] or self.words
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.numerals import rounded
-from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.clause import Told, below_zero, swings, waves_column
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
@@ -93,7 +93,7 @@ GEAR_ECCENTRICITY = Effect(
         otherwise="or store the wave as a correction table: "
         "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
         change="encoder or gear",
-        instruction="Re-centre the encoder disc or gear of {location}, or compensate for the wave: {opposite}.",
+        instruction="Re-centre the encoder disc or gear of {location}, or {correction}.",
     ),
     clauses=(swings("the angle of {location} swings"),),
     atlas=waves_column,
@@ -246,7 +246,7 @@ SERVO_LAG = Effect(
         change="controller",
         instruction="Add velocity feed-forward at {location}, or mend the instrument's time stamps.",
     ),
-    clauses=("{location} runs behind by {delay}",),
+    clauses=(below_zero("delay", "{location} runs ahead by {delay}"), "{location} runs behind by {delay}"),
     labels={"delay": "runs behind by"},
     atlas="speed",
     needs=("dq_rad_s",),
@@ -276,7 +276,7 @@ JOINT_COUPLING = Effect(
         change="coupling table",
         instruction="Put {coefficient}, minus the coefficient, into the controller's coupling table for {location}.",
     ),
-    clauses=("{joint} turns by {coupling} of {source}",),
+    clauses=("{joint} turns by {coupling:+} of {source}",),
     departs=True,
 )
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.physics.effect import Effect, Part
+from armscope.physics.effect import FORMULA, Effect, Part
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
@@ -80,7 +80,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
     if in_urdf:
         words["location"], words["row"] = _origin(scene.arm, effect)
-    words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
+    words["correction"] = _correction(scene, cause.parts)
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         stands = angle(told["offset"].value, told["offset"].stderr)
@@ -95,8 +95,9 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["coefficient"] = value.removeprefix("−") if value.startswith("−") else f"−{value}"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
-    opposite_told = known is not None and "{opposite}" in known.cure.instruction
-    said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
+    correction_told = known is not None and "{correction}" in known.cure.instruction
+    row_told = effect.effect == LINK_GEOMETRY.name and bool(told)
+    said_already = "offset" in told or words["jump"] or correction_told or row_told or in_urdf
     instruction = known.cure.instruction.format(**words) if known else ""
     task = Task(
         what=capitalised(phrase(effect)),
@@ -141,7 +142,6 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     return f"joint {arm.joint_names[joint - 1]}'s origin", '<origin xyz="{}" rpy="{}"/>'.format(*numbers)
 
 
-FORMULA = "commanded = "
 NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
 """Without masses, what gives way is known by the product with them, which the model file has."""
 
@@ -196,27 +196,39 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         yield f"{p.name} = stated {p.name} {size}"
 
 
-def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, about_mean: bool = False) -> str:
+def _correction(scene: Scene, parts: tuple[Part, ...]) -> str:
+    """By how much a motor's command is corrected over the recorded rows: its signs are opposite to what they show."""
+    moved = {d: a for d, a in scene.amounts(parts).items() if Location.of(d.location).kind == "motor"}
+    if not moved:
+        return "compensate for it in the command"
+    direction, amount = max(moved.items(), key=lambda pair: float(np.abs(pair[1]).max()))
+    number = Location.of(direction.location).number
+    return f"correct the command of joint {number} by {_range(-np.asarray(amount), turning=True)}"
+
+
+def _motion(scene: Scene, parts: tuple[Part, ...], about_mean: bool = False) -> str:
     """The largest turn and shift of parts over the recorded rows, in words, with signs.
 
     Args:
         scene: the rows.
         parts: that move.
-        sign: -1 to undo them.
         about_mean: without what the joint's zero, the base or the tool may take up, too, as in a free curve.
 
     Returns:
         Which place moves how, from ... to.
     """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
+    places = {part.placed.location for part in parts}
+    link = places.pop() if len(places) == 1 and min(places).startswith("link ") else ""
     for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)
         if place.kind in ("instrument", "payload"):
             continue
         turning = direction.axis == "turn" or direction.axis.startswith("r")
         about = "" if direction.axis == "turn" else f" {'about' if turning else 'along'} {direction.axis[1:]}"
-        name = f"joint {place.number}" if place.kind == "motor" else direction.location
-        amounts["turns" if turning else "moves"].append((f"{name}{about}", sign * np.asarray(amount)))
+        # a modified row's a and alpha act in the frame of the row before, its d in the joint's: neither is its number
+        name = f"joint {place.number}" if place.kind == "motor" else link or direction.location
+        amounts["turns" if turning else "moves"].append((f"{name}{about}", np.asarray(amount)))
     told = []
     for verb, found in amounts.items():
         if found:
