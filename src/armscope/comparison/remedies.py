@@ -87,7 +87,7 @@ def _words(known: Effect, location: str, differences: list[Parameter], verb: str
     """
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
-    words |= {"location": location, "size": "", "jump": "", "opposite": "what changed is taken back"}
+    words |= {"location": location, "size": "", "jump": "", "correction": "take what changed back in the command"}
     told = (f"{each.name} {length(each.value, each.stderr)}" for each in differences if each.unit == "mm")
     turned = (f"{each.name} {angle(each.value, each.stderr)}" for each in differences if each.unit == "rad")
     words["row"] = f"what stood there and {enumerated([*told, *turned])}"

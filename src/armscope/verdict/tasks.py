@@ -59,6 +59,11 @@ class Task:
     only_after: bool = False
     instead: bool = False
 
+    @property
+    def unsettled(self) -> bool:
+        """Whether it is to be found out first what the cause is."""
+        return self.change == OPEN
+
 
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
     """What is done about a cause; what it is worth stands open.
@@ -67,7 +72,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         scene: the fitted model's, of the recorded rows.
         cause: with its parts of the fitted model.
         effect: the effect that it is cured as.
-        asked: whether the verdict asks for further measurements.
+        asked: whether further measurements that the verdict asks for settle it.
 
     Returns:
         The task.

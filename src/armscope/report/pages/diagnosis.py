@@ -24,6 +24,7 @@ from armscope.verdict.corrections import (
     corrected_cells,
     corrected_origins,
     corrected_rows,
+    unsettled,
     wrongly_stated,
     zero_offsets,
 )
@@ -33,7 +34,7 @@ from armscope.verdict.entries import angle
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
-from armscope.verdict.wording import millimetres, percent
+from armscope.verdict.wording import millimetres, percent, places_in_words
 
 ANSWERS = {
     "nothing missing": ("holds", "nothing is missing"),
@@ -91,6 +92,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
+        "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
         "tables": [ZEROS, *corrected, *([UR] if kinematics else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))

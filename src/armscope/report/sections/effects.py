@@ -49,7 +49,7 @@ def _context(subject: Subject) -> dict[str, Any]:
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
     """Whether the two readings that could not be told apart are about one of these effects."""
-    return poses is not None and any(poses.first.startswith(effect.as_member) for effect in effects)
+    return poses is not None and any(map(poses.ask_about, effects))
 
 
 EFFECTS = Section("effects", "Causes", "What was found", _context, (effect_curves,))
