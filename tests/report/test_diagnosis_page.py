@@ -2,15 +2,12 @@ import html.parser
 import re
 import shutil
 import subprocess
-from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.assumptions import assumptions
 from armscope.report.sections.registry import SECTIONS
-from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.schema import WaterfallStep
 from armscope.verdict.sentences import headline
 from tests.report import verdicts
@@ -133,21 +130,6 @@ def test_suspect_rows_and_next_poses_are_listed(pages):
     undecided = Page(pages("cannot_tell").read_text())
     assert undecided.words.count("pose") > 5
     assert "Measuring each about 3 times would settle it." in undecided.words
-
-
-def test_poses_that_would_settle_nothing_are_not_asked_for(tmp_path):
-    """Seen: "These poses would settle it" above "no number of repeats within reason would"."""
-    vague = replace(verdicts.compliance(), named_as="region", title="elastic, around joint 2")
-    first, few = f"{vague.as_member}", np.zeros((4, 6))
-    for repeats, settle in ((3.0, True), (float("inf"), False)):
-        poses = NextPoses(few, np.zeros(4), np.full(4, 0.01), first, "base_compliance at base", repeats)
-        verdict = verdicts.case(effects=(vague,), next_poses=poses).verdict
-        write_report(verdict, tmp_path)
-        page = Page((tmp_path / "report.html").read_text()).words
-        assert poses.ask_about(vague)
-        assert ("These poses would settle it." in page) == settle
-        assert ("no number of repeats within reason would settle it" in page) != settle
-        assert ("No further poses would settle it; the tests at the arm do" in page) != settle
 
 
 def test_text_from_outside_is_shown_not_run(pages):

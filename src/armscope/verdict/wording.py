@@ -119,7 +119,15 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
     places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
     if not places:
         return [f"{spelled(len(others))} more at the same place"] if others else []
-    where = places_in_words(places) if len(places) <= MOST_PLACES else f"{spelled(len(places))} more places"
+    if len(places) > MOST_PLACES:
+        return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
+    kinds: dict[str, list[str]] = {}  # "joint 2 has play (also off: joint 4)" would be read as play of joint 4
+    for effect in others:
+        if effect.location in places:
+            kinds.setdefault("" if effect.effect == told.effect else f"{plain(effect.effect)} at ", []).append(
+                effect.location
+            )
+    where = enumerated([kind + places_in_words(list(dict.fromkeys(those))) for kind, those in kinds.items()])
     return [f"{_ALSO.get(family, 'also')}: {where}"]
 
 
