@@ -131,7 +131,7 @@ def test_of_several_arms_the_one_that_is_unlike_the_others():
     arms = {name: session(20 + n, offsets={2: 4e-4} if name == "C" else {}) for n, name in enumerate("ABCD")}
     found = compare(ARM, arms, of_arms=True)
     assert found.changes[0].where == ("C",)
-    assert "in C" in found.headline
+    assert 'in "C"' in found.headline
     assert "that all are alike" in found.headline
 
 

@@ -20,7 +20,7 @@ def test_the_zero_is_set_by_the_change_and_not_by_all_that_is_off():
     told = remedy_of(FOUND, CHANGE)
     assert told.instruction == "Reset the zero of joint 3: it moved by +0.0498° (+0.870 mrad ± 0.020)."
     assert told.rule.endswith("Here offset = +0.0498° (+0.870 mrad ± 0.020).")
-    assert "between b and c" in told.why
+    assert 'between "b" and "c"' in told.why
 
 
 def test_a_repair_that_worked_is_not_told_as_a_crash():
@@ -30,10 +30,10 @@ def test_a_repair_that_worked_is_not_told_as_a_crash():
 
 def test_what_is_over_is_not_mended_again():
     told = remedy_of(FOUND, once := replace(CHANGE, where=("b",), against=("a", "c"), until="c"))
-    assert "between a and b, and again before c" in told.why
+    assert 'between "a" and "b", and again before "c"' in told.why
     assert told.instruction == "Nothing is left to be done about what b alone had."
     assert (told.confirm, told.rule) == ("", "")
-    assert found_text(once).startswith("Joint offset at joint 3 grew in b alone (p = 1e-09")
+    assert found_text(once).startswith('Joint offset at joint 3 grew in "b" alone (p = 1e-09')
     assert " alone" not in found_text(CHANGE)
     first = replace(CHANGE, where=("b",), against=("a",))  # it lasts, and changed once more in c
     assert remedy_of(FOUND, first).instruction.startswith("Reset the zero")

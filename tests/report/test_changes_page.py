@@ -38,10 +38,10 @@ def words_of(found, folder):
 
 def test_a_change_is_told_with_its_numbers_and_what_to_do(tmp_path):
     said = words_of(FOUND, tmp_path)
-    assert "Joint offset at joint 3 grew in after." in said
+    assert 'Joint offset at joint 3 grew in "after".' in said
     assert "0.296 mm" in said
     assert "0.900 mrad 1.770 mrad +0.870 mrad +0.0498° 0.850 … 0.890 mrad" in said
-    assert "between before and after" in said
+    assert 'between "before" and "after"' in said
     assert "Reset the zero of joint 3: it moved by +0.0498° (+0.870 mrad ± 0.020)." in said
     assert "commanded = wanted - offset" in said
     assert "Here offset = +0.0498°" in said, "by the change, not by all that is off"
@@ -54,7 +54,7 @@ def test_a_change_is_told_with_its_numbers_and_what_to_do(tmp_path):
 def test_what_cannot_be_told_apart_is_to_be_confirmed_first(tmp_path):
     rivals = ("link geometry at link 3", "link geometry at link 2", "base compliance at base")
     said = words_of(replace(FOUND, changes=(replace(CHANGE, alternatives=rivals),)), tmp_path)
-    assert "Joint offset at joint 3 (or one of 3 others that explain it as well) grew in after." in said
+    assert 'Joint offset at joint 3 (or one of 3 others that explain it as well) grew in "after".' in said
     assert "link geometry at links 2 and 3; base compliance." in said
     assert "Once it is confirmed: Reset the zero" in said
 
@@ -156,7 +156,7 @@ def test_of_many_recordings_the_first_and_the_last_are_named():
     names = tuple("abcdefg")
     later = replace(CHANGE, where=names[2:], against=names[:2])
     long = replace(FOUND, names=names, changes=(later,), rows=(70,) * 7, same_poses=(names,), left=())
-    assert long.told.endswith("grew in c and the 4 after it")
+    assert long.told.endswith('grew in "c" and the 4 after it')
     assert recordings_table(long)["compared with"].tolist() == ["all others"] * 7
 
 
@@ -167,7 +167,7 @@ def test_of_several_arms_the_page_says_which_is_unlike_the_others(tmp_path):
     change = replace(CHANGE, where=("B",), against=("A", "C"), parameters=(number,))
     arms = replace(FOUND, names=names, rows=(70,) * 3, changes=(change,), same_poses=(names,), left=(), of_arms=True)
     said = words_of(arms, tmp_path)
-    assert "Joint offset at joint 3 is larger in B than in the others." in said
+    assert 'Joint offset at joint 3 is larger in "B" than in the others.' in said
     assert "unlike the others" in said
     assert "0.900 mrad 1.770 mrad +0.870 mrad" in said, "the mean of the others, and B"
     assert "how B was assembled" in said

@@ -49,7 +49,7 @@ SAID = {
     "axis_wobble": "the axis of joint 2 tilts by ±240 µrad once per turn",
     "backlash": "joint 2 has 300 µrad of play",
     "servo_lag": "joint 2 runs behind by 4.0 ms",
-    "joint_coupling": "joint 6 turns by 200 µrad per rad of joint 5",
+    "joint_coupling": "joint 6 turns by +200 µrad per rad of joint 5",
     "joint_compliance": "joint 2 gives way by 0.21 µrad per N m under gravity",
     "bearing_compliance": "the bearing of joint 2 tilts by 0.21 µrad per N m under gravity",
     "base_compliance": "the base tilts by 0.21 µrad per N m under the arm's moment",

@@ -19,7 +19,7 @@ def test_every_recording_has_its_row_and_its_point():
     low, high = axes.get_ylim()
     assert high - low < 1000, "a change known to 20 µrad is not drawn in bars of 16 mrad that all recordings share"
     assert [label.get_text() for label in axes.get_xticklabels()] == ["a", "b", "c"]
-    assert "came in b and c" in axes.get_title(loc="left")
+    assert 'came in "b" and "c"' in axes.get_title(loc="left")
 
 
 def test_names_of_files_are_drawn_as_they_can_be_read():

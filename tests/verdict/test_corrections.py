@@ -1,5 +1,6 @@
 """Numbers to enter in a controller's model: an arm built from them stands where the diagnosed one does."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree
@@ -13,7 +14,7 @@ from armscope.physics.geometric import row_terms
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
-from armscope.verdict.corrections import corrected_origins, corrected_rows
+from armscope.verdict.corrections import corrected_origins, corrected_rows, unsettled, zero_offsets
 from armscope.verdict.effects import FoundEffect, Parameter
 from tests.report.verdicts import found
 from tests.robot.test_urdf import TORSO_ARM, build
@@ -113,6 +114,23 @@ def test_an_origin_that_hardly_turns_keeps_its_stated_angles() -> None:
     assert table is not None
     for axis in ("roll", "pitch", "yaw"):
         np.testing.assert_allclose(table[f"corrected_{axis}_rad"], table[f"stated_{axis}_rad"], atol=1e-15)
+
+
+def test_what_is_one_reading_of_several_is_not_entered() -> None:
+    """Seen: "Until then change nothing for it" above its corrected row and "Enter all of them together"."""
+    arm = build_arm(nominal_description("ur5e"))
+    link, zero = (
+        found("link_geometry", "link 3", Parameter("alpha", "rad", -1e-3, 1e-5), Parameter("a", "mm", 0.5, 0.01)),
+        found("joint_offset", "joint 2", Parameter("offset", "rad", 1e-3, 1e-5)),
+    )
+    for named_as, entered in (("effect", True), ("region", False)):
+        told = saying(arm, *(replace(each, named_as=named_as) for each in (link, zero)))
+        rows, zeros = corrected_rows(told), zero_offsets(told)
+        assert rows is not None
+        assert bool(rows.filter(like="correction_").any(axis=None)) == entered
+        assert bool(zeros["actual_minus_commanded_mrad"].any()) == entered
+        assert zeros["cause"][1] == ("named" if entered else "to be settled")
+        assert len(unsettled(told)) == (0 if entered else 2)
 
 
 def test_an_arm_has_rows_or_origins_never_both() -> None:

@@ -152,6 +152,10 @@ def test_a_cause_of_several_places_says_where_the_others_are():
     assert cause_in_words("elastic", many).endswith("(also giving way: five more places)")
     assert cause_in_words("elastic", [compliance(), compliance()]).endswith("(one more at the same place)")
     assert "(" not in cause_in_words("elastic", at[:1])
+    play = found("backlash", "joint 2", Parameter("gap", "rad", 3e-4, 1e-6))
+    wave = found("gear_eccentricity", "joint 4", Parameter("amplitude", "rad", 3e-4, 1e-6))
+    told = cause_in_words("transmission", [play, wave])
+    assert told.endswith("of play (also off: gear eccentricity at joint 4)"), "joint 4 has no play"
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():

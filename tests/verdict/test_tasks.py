@@ -9,10 +9,13 @@ import pytest
 from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.freeform import UNKNOWN
+from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import EFFECTS
 from armscope.physics.scene import Scene
 from armscope.physics.soft_start import hardening
-from armscope.verdict.contributions import contributions
+from armscope.physics.thermal import THERMAL_EXPANSION
+from armscope.physics.transmission import BACKLASH
+from armscope.verdict.contributions import Repair, contributions
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.tasks import task_of
@@ -40,6 +43,58 @@ def test_a_coupling_says_what_is_put_into_the_table_with_its_sign_and_once(size:
     assert put in task.instruction
     assert "table" not in task.cure
     assert "commanded = wanted - coupling x other" in task.cure
+
+
+def test_play_that_leads_its_command_is_a_sign_to_be_turned_and_no_gear_to_be_adjusted() -> None:
+    """Seen twice: "-497 urad of play. Adjust the gear", where the column's sign was wrong."""
+    play = verdicts.found(
+        "backlash", "joint 2", Parameter("gap", "rad", -5e-4, 1e-5), driver="side of approach of joint 2"
+    )
+    case = verdicts.case(effects=(play,))
+    table = replace(case.recordings, approach=np.sign(case.recordings.motor_angles))
+    scene = case.verdict.model.scene(table)
+    placed = next(p for p in BACKLASH.place(scene.arm, scene.recordings) if p.key == ("backlash", "joint 2"))
+    cause = Repair("play", (play,), (Part(placed, np.array([-5e-4])),), np.zeros((1, 3)))
+    task = task_of(scene, cause, play)
+    assert "has 0.50 mrad of play, if its column of approach has the wrong sign" in task.what
+    assert task.instruction.startswith("Turn the sign of joint 2's approach column")
+    assert "commanded = wanted - approach x gap / 2" in task.cure
+    right = replace(cause, parts=(Part(placed, np.array([5e-4])),))
+    told = task_of(scene, right, replace(play, parameters=(Parameter("gap", "rad", 5e-4, 1e-5),)))
+    assert told.what == "Joint 2 has 0.50 mrad of play"
+    assert "commanded = wanted + approach x gap / 2" in told.cure
+    assert "gravity" not in told.cure
+
+
+def test_a_correction_is_no_error_said_with_the_same_verb() -> None:
+    """What a joint does stood in the rows, what is to be done about it in the step, both as "joint 2 turns by"."""
+    case, told = verdicts.case(effects=(verdicts.compliance("joint 2"),)), []
+    scene = case.verdict.model.scene(case.recordings)
+    placed = next(p for p in JOINT_COMPLIANCE.place(scene.arm, scene.recordings) if p.location == "joint 2")
+    for value in (2e-6, -2e-6):
+        part = Part(placed, np.array([value]))
+        task = task_of(scene, Repair("gives", case.verdict.effects, (part,), np.zeros((1, 3))), case.verdict.effects[0])
+        assert "or correct the command of joint 2 by " in task.instruction
+        assert "turns by" not in task.instruction
+        low = task.instruction.partition("command of joint 2 by ")[2][0]
+        told.append((low, float(np.sign(scene.amounts((part,))[placed.terms[0].products[0].direction].max()))))
+    assert ("−", 1.0) in told
+
+
+@pytest.mark.parametrize("robot", ["../../examples/seven-axes-modified-dh/robot", "six-axis"])
+def test_a_link_moves_by_the_number_that_its_name_has(robot: str) -> None:
+    """Of a modified row, a and alpha act in the frame of the row before: "link 5: ... link 4 along x moves"."""
+    case = verdicts.case(robot, effects=(verdicts.compliance("joint 2"),))
+    scene = case.verdict.model.scene(replace(case.recordings, temperature=np.linspace(10, 30, len(case.recordings))))
+    for effect in (LINK_GEOMETRY, THERMAL_EXPANSION):
+        placed = next(p for p in effect.place(scene.arm, scene.recordings) if p.location == "link 3")
+        values = tuple(Parameter(t.name, t.unit, 1e-5, 1e-7) for t in placed.terms)
+        found = verdicts.found(effect.name, "link 3", *values)
+        part = Part(placed, np.full(len(placed.terms), 1e-5))
+        task = task_of(scene, Repair("link", (found,), (part,), np.zeros((1, 3))), found)
+        assert "link 2" not in task.motion
+        assert "joint 3" not in task.motion
+        assert task.motion.startswith("link 3 along") == (effect is THERMAL_EXPANSION)
 
 
 def test_a_cause_that_is_not_settled_is_settled_first() -> None:
@@ -88,7 +143,10 @@ def test_a_task_says_nothing_twice() -> None:
     model, (cause,) = case.verdict.model, contributions(case.verdict).causes
     task = task_of(model.scene(case.recordings), cause, cause.effects[0])
     assert "elastic model" in task.instruction
-    assert task.cure.startswith("Or compensate for it in the command: commanded = wanted - compliance x load")
+    assert task.cure.startswith("commanded = wanted - compliance x load")
+    for name in ("joint_compliance", "gear_eccentricity"):
+        rule = next(effect.cure.rule for effect in EFFECTS if effect.name == name)
+        assert not rule.startswith("Or ")
 
 
 def test_the_formula_of_a_rule_has_its_numbers_behind_it() -> None:

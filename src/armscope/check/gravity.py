@@ -8,6 +8,7 @@ import numpy as np
 
 from armscope.calibration.model import set_up
 from armscope.calibration.state import State
+from armscope.check.approach import drive_columns
 from armscope.check.constants import WRONG_GRAVITY
 from armscope.check.suspicion import GRAVITY, Suspicion
 from armscope.core.types import Array
@@ -16,7 +17,7 @@ from armscope.robot import Arm
 
 
 def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Suspicion]:
-    """Whether joints give way against the gravity that robot.yaml states, base, tool and geometry being free.
+    """Whether joints give way against the gravity that robot.yaml states, base, tool, geometry and drives being free.
 
     Args:
         arm: with link masses, else nothing is tried.
@@ -29,8 +30,10 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
     rows = set_up(arm, replace(recordings, torque=None, orientation=None))
     if rows.loads is None or not np.any(rows.loads):
         return []
-    left, columns = rows.linearised(state, rows.free("compliance"))
-    geometry, giving = columns[:, : -arm.n_motors], columns[:, -arm.n_motors :]
+    posed, free = rows.posed(state), rows.free("compliance")
+    left, columns = posed.left.ravel(), rows.jacobian(state, posed, free)
+    giving = columns[:, -arm.n_motors :]
+    geometry = np.hstack([columns[:, : -arm.n_motors], drive_columns(arm, posed, recordings.motor_angles)])
     spanned, size, _ = np.linalg.svd(geometry, full_matrices=False)
     spanned = spanned[:, size > WRONG_GRAVITY.left_of_column**2 * size[0]]
     beyond = giving - spanned @ (spanned.T @ giving)
@@ -45,7 +48,7 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
         return []
     statement = (
         "joints seem to give way against gravity: with gravity_m_s2 turned around, joints that give way explain "
-        f"{100 * (1 - against / whole):.0f} % of the squared error that geometry leaves, "
+        f"{100 * (1 - against / whole):.0f} % of the squared error that geometry and drives leave, "
         f"as it is {100 * (1 - along / whole):.0f} %"
     )
     cure = (

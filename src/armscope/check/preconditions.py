@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from armscope.check.constants import TABLE
 from armscope.check.report import what_forbids
-from armscope.check.suspicion import GRAVITY, Suspicion, refuse_problems
+from armscope.check.suspicion import BESIDE, Suspicion, refuse_problems
 from armscope.check.suspicions import explanation
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -67,7 +67,7 @@ def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
 def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:
     """Problems as notices, but for the one that an obstacle names already."""
     said = "" if obstacle is None else obstacle.text
-    kinds = [(each.kind if each.kind in (ANOTHER_MODEL, GRAVITY) else "check", each.text()) for each in problems]
+    kinds = [(each.kind if each.kind in (ANOTHER_MODEL, *BESIDE) else "check", each.text()) for each in problems]
     return tuple(Notice(kind, text[0].upper() + text[1:]) for kind, text in kinds if text not in said)
 
 
@@ -160,7 +160,7 @@ def too_far(arm: Arm, recordings: Recordings, residuals: Array, problems: Sequen
     if size < TABLE.too_far * arm.reach * 1e3:
         return None
     start = f"After fitting base and tool the residual is still {size:.0f} mm per axis"
-    found = next((each for each in problems if each.kind not in ("check", GRAVITY)), None) or explanation(
+    found = next((each for each in problems if each.kind not in ("check", *BESIDE)), None) or explanation(
         arm, recordings
     )
     return Notice(found.kind, f"{start}: {found.text()}")

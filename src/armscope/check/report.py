@@ -10,7 +10,7 @@ import numpy as np
 from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import GRAVITY, Suspicion, verdict_lines
+from armscope.check.suspicion import BESIDE, Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
@@ -78,10 +78,10 @@ def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
         arm: the robot it should belong to.
 
     Returns:
-        Its problems, whether it is another model's, and whether gravity seems to point the other way.
+        Its problems, whether it is another model's, and whether gravity or sides of approach seem to be turned round.
     """
     found = (*against_arm(arm, recordings).suspicions, *_still(recordings), *of_quantities(recordings, arm))
-    return tuple(each for each in found if each.weight == "problem" or each.kind in (ANOTHER_MODEL, GRAVITY))
+    return tuple(each for each in found if each.weight == "problem" or each.kind in (ANOTHER_MODEL, *BESIDE))
 
 
 def _still(recordings: Recordings) -> tuple[Suspicion, ...]:

@@ -11,6 +11,12 @@ from armscope.core.inputs import InputError
 GRAVITY = "gravity"
 """Kind of a suspicion about which way gravity is stated to point."""
 
+APPROACH = "approach"
+"""Kind of a suspicion about the sign of a column of the side of approach."""
+
+BESIDE = (GRAVITY, APPROACH)
+"""Kinds of hints that stand above a diagnosis, which is made all the same."""
+
 TOO_SHORT = "too short"
 """Kind of a problem with which nothing can be diagnosed, whatever a user asks for."""
 

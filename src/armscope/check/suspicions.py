@@ -14,6 +14,7 @@ import numpy as np
 from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
+from armscope.check.approach import leading_joints
 from armscope.check.common_mistakes import Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
@@ -74,7 +75,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         )
     else:
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
-        found += _rows_far_off(arm, recordings)
+        found += leading_joints(arm, some, state) + _rows_far_off(arm, recordings)
         found += payload_at_the_flange(arm, recordings, state)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 

@@ -211,7 +211,8 @@ def _tell(result: Compensated) -> None:
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
         print(
-            f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS, with correction {_or_less(left)} mm"
+            f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS of the distance, with correction "
+            f"{_or_less(left)} mm"
         )
         if result.pose:
             turns = (result.uncorrected_turn, result.residual_turn)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from armscope.comparison.other_load import other_load
 from armscope.comparison.result import POWER, Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import Possible, Scored, SharedModel
@@ -69,6 +70,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         taken.append(possible.pop(best))
         model.weigh_recordings(taken)
     names = tuple(recordings)
+    changes = tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found)
     return Comparison(
         arm=arm.name,
         names=names,
@@ -81,7 +83,8 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         of_arms=of_arms,
         seen=seen,
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
-        changes=tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found),
+        changes=changes,
+        other_load=other_load(arm, table.motor_angles, changes),
     )
 
 

@@ -65,11 +65,11 @@ def _why(found: Comparison, change: Change) -> str:
     if found.of_arms:
         return f"Look at what is done to each arm alone: how {change.where[0]} was assembled, mastered and mounted."
     earlier = [name for name in found.names[: found.names.index(change.where[0])] if name in change.against]
-    between = f"between {earlier[-1]} and {change.where[0]}" if earlier else f"before {change.where[0]}"
+    between = f'between "{earlier[-1]}" and "{change.where[0]}"' if earlier else f'before "{change.where[0]}"'
     if change.kind in ("went", "shrank"):
         return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
     if over := found.over_in(change):
-        between = f"{between}, and again before {over}"
+        between = f'{between}, and again before "{over}"'
     return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."
 
 
@@ -87,7 +87,7 @@ def _words(known: Effect, location: str, differences: list[Parameter], verb: str
     """
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
-    words |= {"location": location, "size": "", "jump": "", "opposite": "what changed is taken back"}
+    words |= {"location": location, "size": "", "jump": "", "correction": "take what changed back in the command"}
     told = (f"{each.name} {length(each.value, each.stderr)}" for each in differences if each.unit == "mm")
     turned = (f"{each.name} {angle(each.value, each.stderr)}" for each in differences if each.unit == "rad")
     words["row"] = f"what stood there and {enumerated([*told, *turned])}"

@@ -135,6 +135,7 @@ class Comparison:
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
         left: what is left of each recording, by what is explained.
         seen: how far the zero of each joint must move to be seen, where nothing else changed.
+        other_load: that another load at the flange would look like the changes; "" where it would not.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
     """
 
@@ -150,6 +151,7 @@ class Comparison:
     left: tuple[Left, ...] = ()
     seen: tuple[Seen, ...] = ()
     of_arms: bool = False
+    other_load: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """As plain data."""
@@ -165,7 +167,7 @@ class Comparison:
         if not said and among:
             alike = "No arm is unlike the others" if self.of_arms else "Nothing changed"
             said = f"{alike} that these recordings show ({among}; {chance})."
-        return f"{said} {self.not_comparable}".strip()
+        return " ".join(filter(None, (said, self.other_load, self.not_comparable)))
 
     @property
     def told(self) -> str:
@@ -203,11 +205,12 @@ class Comparison:
     def became(self, change: Change) -> str:
         """What became of a cause, and where: "grew in after"; of arms, how one differs from the others."""
         later = len(change.where) - 1
-        where = enumerated(change.where) if later < MOST_NAMED else f"{change.where[0]} and the {later} after it"
+        first, *_ = where = [f'"{name}"' for name in change.where]
+        told_where = enumerated(where) if later < MOST_NAMED else f"{first} and the {later} after it"
         if not self.of_arms:
-            return f"{change.kind}{_by(change)} in {where}{' alone' * bool(self.over_in(change))}"
-        told = change.against[0] if len(change.against) == 1 else "the others"
-        return UNLIKE[change.kind].format(where=where, others=told, by=_by(change))
+            return f"{change.kind}{_by(change)} in {told_where}{' alone' * bool(self.over_in(change))}"
+        told = f'"{change.against[0]}"' if len(change.against) == 1 else "the others"
+        return UNLIKE[change.kind].format(where=told_where, others=told, by=_by(change))
 
     def over_in(self, change: Change) -> str:
         """The recording from which a change is over; empty where it lasts, and of arms."""
@@ -233,6 +236,15 @@ def _by(change: Change) -> str:
     return f" by {size_of(change.parameters[0].difference, change.parameters[0].unit, sign=True)}"
 
 
+def wave_part(name: str) -> str:
+    """What "cosine_2" and "sine_rx" are; empty for other numbers."""
+    part, _, of = name.partition("_")
+    if part not in ("cosine", "sine"):
+        return ""
+    of = {"rx": "about x", "ry": "about y", "rz": "about z"}.get(of, f"{of} per turn" if of else "")
+    return f"{part} part of the wave{', ' * bool(of)}{of}"
+
+
 def _number_line(number: Valued) -> str:
     factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
     low, high = number.interval_95
@@ -242,7 +254,8 @@ def _number_line(number: Valued) -> str:
         return f"{round(factor * value, digits) + 0.0:.{digits}f}"
 
     change = f"change {told(number.difference)} ({told(low)} ... {told(high)}) {unit}"
+    name = wave_part(number.name) or number.name.replace("_", " ")
     if number.left_open:
-        return f"{number.name}: {change}; how large it is in all of them, these poses leave open"
+        return f"{name}: {change}; how large it is in all of them, these poses leave open"
     values = " -> ".join(map(told, number.values))
-    return f"{number.name}: {values} {unit}; {change}"
+    return f"{name}: {values} {unit}; {change}"

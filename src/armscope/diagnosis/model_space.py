@@ -197,7 +197,7 @@ def _adding_up(layout: ParameterLayout, p: Placed, forms: Sequence[Placed]) -> f
 
 def _looks_like(p: Placed) -> str:
     """The background that does what an effect does, where it is not its own family's."""
-    if p.variant == "load" and (p.parametrisation == "curve" or p.effect is BACKLASH):
+    if p.variant == "load" and (p.parametrisation == "curve" or p.effect == BACKLASH):
         return SOFT
     return STRUCTURE if p.effect in (BASE_COMPLIANCE, LINK_BENDING) else ""
 

@@ -26,13 +26,11 @@ class Candidate:
     """One or more columns that enter or leave a hypothesis together. Candidates are told by their numbers in the space.
 
     Attributes:
-        kind: of effect; kinds are equally likely.
-        location: where; locations of one kind are equally likely.
+        kind, location: of effect, and where; kinds are equally likely, and locations of one kind.
         columns: (c,) its columns.
         prior_scale: (c,) relative size that each column's coefficient is expected to have.
         variant: which of several forms of the kind at this location.
-        driver: what it follows, in words.
-        label: its name in words.
+        driver, label: what it follows, and its name, in words.
         family: what kind of cause it is; the background of that name takes the place of several of its kind.
         looks_like: the background that does so instead, where it is another family's; "" where it is its own.
         region: coarser than the location: what is taken out together when others are tried in its place.
@@ -45,8 +43,7 @@ class Candidate:
         excludes: candidates that can't stand beside it.
         requires: it does nothing without one of these; None where it stands by itself.
         special_cases: candidates that the curve contains.
-        side_by_side: how many special cases of the curve may well stand side by side.
-        common: of these, what is common anyway, and is not counted.
+        side_by_side: how many special cases of the curve may well stand side by side, beside what is ``common``.
         refines: the candidate of which this is a finer form.
         removed_with: candidates with which, one at a time, it is taken out, too.
         summed: columns of a background that add up to its own, where that has them in place of its own.
@@ -90,6 +87,11 @@ class Candidate:
     def key(self) -> tuple[str, str]:
         """(kind, location)."""
         return self.kind, self.location
+
+    def excess(self, candidates: frozenset[int]) -> int:
+        """By how many its special cases exceed what is common side by side; what is common counts beside too many."""
+        uncommon = len((self.special_cases - self.common) & candidates)
+        return (uncommon if uncommon <= self.side_by_side else len(self.special_cases & candidates)) - self.side_by_side
 
     @property
     def taken_up_by(self) -> str:
@@ -283,12 +285,9 @@ class ModelSpace:
 
     def excess_special_cases(self, candidates: frozenset[int]) -> int:
         """By how many candidates some curve's special cases exceed what is common side by side."""
-        known = self._excess.get(candidates)
-        if known is None:
-            beside = (len((c.special_cases - c.common) & candidates) - c.side_by_side for c in self._curves)
-            known = max(beside, default=0)
-            self._excess[candidates] = known
-        return known
+        if candidates not in self._excess:
+            self._excess[candidates] = max((c.excess(candidates) for c in self._curves), default=0)
+        return self._excess[candidates]
 
     @functools.cached_property
     def finer(self) -> dict[int, int]:

@@ -105,14 +105,6 @@ class LibraryRules(Constants):
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
-    powers: tuple[float, ...] = constant(
-        (1 / 3, 0.5, 2 / 3, 1.5, 2.0, 3.0),
-        "of speed to which friction may grow",
-        "judgement: grease that thins as it is sheared, below 1; oil that is churned, a square",
-    )
-    between_powers: float = constant(
-        0.2, "change of a scanned power that its cause allows for", "derived: half a step of the scan, about"
-    )
 
 
 @dataclass(frozen=True)

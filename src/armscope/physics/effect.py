@@ -52,6 +52,9 @@ __all__ = [
     "term",
 ]
 
+FORMULA = "commanded = "
+"""How a rule by which something is commanded away begins."""
+
 Family = Literal["frame", "geometric", "transmission", "elastic", "thermal", "drift", "instrument", "unknown"]
 
 
@@ -78,6 +81,7 @@ class Effect:
         nonnegative: its one value is not negative: what gives way does so along its load.
         several: whether several of it (mesh lines, jumps, curves of different drivers) may stand at one place.
         contained_in: free curves, by driver, that hold it as a special case at the same location.
+        below_zero: in whose words it is told where its one value is below zero, which the physics does not allow.
         exact: its motion where the terms are only the slope: (direction, amount (N,)) of a part at a scene's rows.
     """
 
@@ -98,9 +102,14 @@ class Effect:
     nonnegative: bool = False
     several: bool = False
     contained_in: tuple[str, ...] = ()
+    below_zero: Effect | None = field(default=None, repr=False, compare=False)
     exact: Callable[[LoadedArm, Part], Iterable[tuple[Direction, Array]]] | None = field(
         default=None, repr=False, compare=False
     )
+
+    def told_as(self, value: float) -> Effect:
+        """The definition in whose words it is told, by the first of its values."""
+        return self.below_zero if self.below_zero is not None and value < 0 else self
 
 
 @dataclass(frozen=True)
@@ -216,6 +225,8 @@ class Cure:
     def rule(self) -> str:
         """What a work order says beside its instruction, which is the first half at length: what else can be done."""
         said = self.otherwise if self.instruction else ""
+        if "{correction}" in self.instruction and FORMULA in said:  # the instruction says so, with its range
+            return FORMULA + said.partition(FORMULA)[2]
         return said[:1].upper() + said[1:] or self.words
 
 

@@ -120,8 +120,7 @@ JOINT_COMPLIANCE = Effect(
         otherwise="or compensate for it in the command: commanded = wanted - compliance x load (load: gravity's "
         "torque on this motor, positive along its pull).",
         change="elastic model",
-        instruction="Add to the command what gravity takes, so that {opposite}{size}; or let the controller's elastic "
-        "model do so.",
+        instruction="Let the controller's elastic model hold {location} against gravity, or {correction}{size}.",
     ),
     clauses=(
         below_zero("compliance", "{location} turns against gravity's pull, as no spring does, by {compliance}"),

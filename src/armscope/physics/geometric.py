@@ -105,12 +105,12 @@ LINK_GEOMETRY = Effect(
     "link_geometry",
     "geometric",
     _place_links,
-    "The link is longer, shorter or more twisted than its D-H row says.",
+    "The link is longer, shorter or more twisted than its D-H row, or its joint's origin in a URDF, says.",
     "Measure the two neighbouring joint axes with the tracker by turning one joint at a time (circle-point analysis).",
     Cure(
         "No command of one joint undoes it: put the corrected D-H row (in a URDF: the joint's origin) into the "
-        "controller's model (a = stated a + a, and so on for every number here), whose inverse kinematics then reaches "
-        "the wanted point.",
+        "controller's model (each number: the stated one plus the error told here), whose inverse kinematics then "
+        "reaches the wanted point.",
         change="D-H row",
         instruction="Correct {location} in the controller's model: {row}.",
     ),

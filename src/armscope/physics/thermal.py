@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from armscope.physics.clause import below_zero
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
@@ -71,7 +72,10 @@ THERMAL_EXPANSION = Effect(
         change="temperature",
         instruction="Warm the arm up before work, or scale {location} with its temperature.",
     ),
-    clauses=("{location} grows by {coefficient} with temperature",),
+    clauses=(
+        below_zero("coefficient", "{location} shrinks by {coefficient} as it gets warmer"),
+        "{location} grows by {coefficient} with temperature",
+    ),
     labels={"coefficient": "expansion coefficient"},
     atlas="temperature",
     needs=("temperature_c",),

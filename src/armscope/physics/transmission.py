@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.numerals import rounded
-from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.clause import Told, below_zero, swings, waves_column
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
@@ -92,7 +93,7 @@ GEAR_ECCENTRICITY = Effect(
         otherwise="or store the wave as a correction table: "
         "commanded = wanted - amplitude x cos(per_turn x wanted - phase).",
         change="encoder or gear",
-        instruction="Re-centre the encoder disc or gear of {location}, or compensate for the wave: {opposite}.",
+        instruction="Re-centre the encoder disc or gear of {location}, or {correction}.",
     ),
     clauses=(swings("the angle of {location} swings"),),
     atlas=waves_column,
@@ -135,20 +136,40 @@ def _place_backlash(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in varying_columns(recordings.approach, 0.5):
         if j in moving:
             gap = term("gap", "rad", Product(motor(j), Driver("approach", (j,)), -0.5), plausible=PLAUSIBLE.play_rad)
-            yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side of approach of joint {j}", variant="approach")
+            yield Placed(
+                _BY_APPROACH, f"joint {j}", (gap,), (1.0,), f"{SIDE_OF_APPROACH} of joint {j}", variant="approach"
+            )
     if arm.has_masses or recordings.torque is not None:
         scene = Scene(arm, recordings)
         for j in sorted(moving):
             if not is_pulled_both_ways(scene, j):
                 continue  # gravity always pushes to one side: a constant
             gap = term("gap", "rad", Product(motor(j), Driver("load side", (j,)), 0.5), plausible=PLAUSIBLE.play_rad)
-            yield Placed(BACKLASH, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load")
+            yield Placed(
+                _BY_GRAVITY, f"joint {j}", (gap,), (1.0,), f"side that gravity loads joint {j}", variant="load"
+            )
 
 
 def is_pulled_both_ways(scene: Scene, j: int) -> bool:
     """Whether motor j (from 1) is loaded from both sides in more than a few of the rows."""
     pulled = np.mean(scene.driver(Driver("load side", (j,))) > 0)
     return bool(min(pulled, 1 - pulled) >= FORM.least_other_side)
+
+
+SIDE_OF_APPROACH = "side of approach"
+_ADJUST = "Adjust or preload the gear; until then approach from one side,"
+_GEAR_PLAY = {"change": "gear play", "instruction": "Adjust or preload the gear of {location}."}
+
+
+def leads(told: Told) -> bool:
+    """Whether play is told that by its column of approach would put the joint ahead of its command, as none can."""
+    gap = told.numbers.get("gap")
+    return gap is not None and gap.value < 0 and told.driver.startswith(SIDE_OF_APPROACH)
+
+
+def _play(told: Told) -> str:
+    words = "{location} has {gap} of play".format_map(told.words())
+    return f"{words}, if its column of approach has the wrong sign" if leads(told) else words
 
 
 BACKLASH = Effect(
@@ -158,17 +179,52 @@ BACKLASH = Effect(
     "The gear has play: the joint rests on one flank or the other, by the side it came from or gravity pushes it to.",
     "Approach one pose from both sides of this joint and compare.",
     command(
-        "Adjust or preload the gear; until then approach from one side,",
+        _ADJUST,
         otherwise="or compensate for the play in the command: where the motion decides, commanded = wanted + "
         "approach x gap / 2 (approach: +1 after a positive motion); where gravity does, commanded = wanted - side x "
         "gap / 2 (side: sign of the load along gravity's pull).",
-        change="gear play",
-        instruction="Adjust or preload the gear of {location}.",
+        **_GEAR_PLAY,
     ),
-    clauses=("{location} has {gap} of play", "{location} has play"),
+    clauses=(_play, "{location} has play"),
     labels={"gap": "play"},
     atlas="side of approach",
     contained_in=("load", "approach"),
+)
+_REVERSED = replace(
+    BACKLASH,
+    physics="By the recorded side of approach this joint is ahead of its command, where play can only leave it behind: "
+    "most likely the column has the wrong sign.",
+    confirm="Approach one pose from both sides of the joint and compare: after a positive motion play leaves it short.",
+    cure=command(
+        "Turn the sign of this joint's approach column in the recordings (+1: the last motion was positive) and "
+        "diagnose again. Where it is right as it is, the controller makes up for more play than there is: lower its "
+        "backlash compensation;",
+        otherwise="or, once the sign is turned, compensate for the play in the command: commanded = wanted - approach "
+        "x gap / 2 (gap as it is told here, below zero; approach: +1 after a positive motion).",
+        change="sign of its approach column",
+        instruction="Turn the sign of {location}'s approach column in the recordings (+1: the last motion was "
+        "positive) and diagnose again before anything is done to the gear. If it is right as it is, lower the "
+        "controller's backlash compensation.",
+    ),
+)
+_BY_APPROACH = replace(
+    BACKLASH,
+    cure=command(
+        _ADJUST,
+        otherwise="or compensate for the play in the command, where the motion decides, as found here: commanded = "
+        "wanted + approach x gap / 2 (approach: +1 after a positive motion).",
+        **_GEAR_PLAY,
+    ),
+    below_zero=_REVERSED,
+)
+_BY_GRAVITY = replace(
+    BACKLASH,
+    cure=command(
+        _ADJUST,
+        otherwise="or compensate for the play in the command, where gravity decides, as found here: commanded = wanted "
+        "- side x gap / 2 (side: sign of the load along gravity's pull).",
+        **_GEAR_PLAY,
+    ),
 )
 
 
@@ -190,7 +246,7 @@ SERVO_LAG = Effect(
         change="controller",
         instruction="Add velocity feed-forward at {location}, or mend the instrument's time stamps.",
     ),
-    clauses=("{location} runs behind by {delay}",),
+    clauses=(below_zero("delay", "{location} runs ahead by {delay}"), "{location} runs behind by {delay}"),
     labels={"delay": "runs behind by"},
     atlas="speed",
     needs=("dq_rad_s",),
@@ -220,7 +276,7 @@ JOINT_COUPLING = Effect(
         change="coupling table",
         instruction="Put {coefficient}, minus the coefficient, into the controller's coupling table for {location}.",
     ),
-    clauses=("{joint} turns by {coupling} of {source}",),
+    clauses=("{joint} turns by {coupling:+} of {source}",),
     departs=True,
 )
 

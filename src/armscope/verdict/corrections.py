@@ -27,14 +27,22 @@ LEAST_TURN = 1e-5
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     """The zeros of all motors as found: actual angle minus commanded angle, with 95 % intervals (half width).
 
-    Those that were not named stand as 0 with what the small errors in all joints say of them.
+    Those that were not named, or are but one reading of several, stand as 0.
     """
-    rows = []
+    rows, open_ = [], {each.location for each in unsettled(verdict)}
     for j in range(1, verdict.model.arm.n_motors + 1):
-        found = [p for e in verdict.effects if (e.effect, e.location) == (JOINT_OFFSET.name, f"joint {j}")
+        found = [p for e in _settled(verdict) if (e.effect, e.location) == (JOINT_OFFSET.name, f"joint {j}")
                  for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
         value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
-        rows.append((f"joint {j}", math.degrees(value), 1e3 * value, 1e3 * half, "named" if found else "not named"))
+        rows.append(
+            (
+                f"joint {j}",
+                math.degrees(value),
+                1e3 * value,
+                1e3 * half,
+                "named" if found else "to be settled" if f"joint {j}" in open_ else "not named",
+            )
+        )
     columns = ["joint", "actual_minus_commanded_deg", "actual_minus_commanded_mrad", "half_interval_95_mrad", "cause"]
     return pd.DataFrame(rows, columns=columns)
 
@@ -48,6 +56,16 @@ def as_entered(zeros: pd.DataFrame) -> pd.DataFrame:
     for column, decimals in zip(zeros.columns[1:4], (degrees, mrad, mrad), strict=True):
         rounded[column] = [round(value, digits) for value, digits in zip(zeros[column].tolist(), decimals, strict=True)]
     return rounded
+
+
+def unsettled(verdict: Diagnosis) -> list[FoundEffect]:
+    """Zeros and links that are but one reading of several: until that is settled nothing is entered for them."""
+    entered = (JOINT_OFFSET.name, LINK_GEOMETRY.name)
+    return [each for each in verdict.effects if each.named_as != "effect" and each.effect in entered]
+
+
+def _settled(verdict: Diagnosis) -> list[FoundEffect]:
+    return [each for each in verdict.effects if each.named_as == "effect"]
 
 
 def wrongly_stated(verdict: Diagnosis) -> bool:
@@ -69,7 +87,7 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
         return None
     rows = []
     for j, stated in enumerate(dh.joints, start=1):
-        found = {p.name: p for e in verdict.effects if (e.effect, e.location) == (LINK_GEOMETRY.name, f"link {j}")
+        found = {p.name: p for e in _settled(verdict) if (e.effect, e.location) == (LINK_GEOMETRY.name, f"link {j}")
                  for p in e.parameters if not implausible(p, e)}  # fmt: skip
         row: dict[str, object] = {"row": j, "convention": dh.convention}
         numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
@@ -116,7 +134,7 @@ def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
     arm = verdict.model.arm
     if arm.description.dh is not None or wrongly_stated(verdict):
         return None
-    found = {e.location: e for e in verdict.effects if e.effect == LINK_GEOMETRY.name}
+    found = {e.location: e for e in _settled(verdict) if e.effect == LINK_GEOMETRY.name}
     rows = []
     for j, (name, stated) in enumerate(zip(arm.joint_names, origins_of_file(arm), strict=True), start=1):
         effect = found.get(f"link {j}")

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from armscope.core.types import Array
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
+from armscope.verdict.effects import FoundEffect
 from armscope.verdict.schema import Verdict
 
 TOGETHER = "together"
@@ -57,6 +58,15 @@ class NextPoses:
     first: str
     second: str
     repeats_needed: float
+
+    @property
+    def settle(self) -> bool:
+        """Whether measuring them, so often as anybody would, settles which reading is right."""
+        return bool(np.isfinite(self.repeats_needed))
+
+    def ask_about(self, effect: FoundEffect) -> bool:
+        """Whether one of the two readings is this effect."""
+        return self.first.startswith(effect.as_member)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

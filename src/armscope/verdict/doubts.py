@@ -37,7 +37,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
 
     Args:
         effect: found.
-        asked: whether the verdict asks for further measurements.
+        asked: whether further measurements that the verdict asks for settle it.
 
     Returns:
         What to say in place of the name.
@@ -48,7 +48,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     readings: list[FoundEffect | Alternative] = [effect, *rivals]
     names = [_words(each) for each in readings]
     which = enumerated(names, "or") if rivals else plain(effect.title)
-    how = " (measure the poses in next_poses.csv)" if asked else ""
+    how = " (measure the poses in next_poses.csv)" if asked else " (by the tests at the arm)" if rivals else ""
     places = list(dict.fromkeys(each.location for each in readings))
     _, _, region = effect.title.partition(", ")
     return Doubt(

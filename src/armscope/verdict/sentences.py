@@ -261,7 +261,8 @@ def _cannot_tell(verdict: Diagnosis) -> str:
         )
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
     poses = verdict.next_poses
-    settle = "" if poses is None else f"; {spelled(len(poses.motor_angles))} further poses would settle it"
+    further = 0 if poses is None or not poses.settle else len(poses.motor_angles)
+    settle = f"; {spelled(further)} further poses would settle it" if further else ""
     return f"Cannot tell: {_small(why)}{settle}."
 
 

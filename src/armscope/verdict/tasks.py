@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.location import Location
-from armscope.core.types import Array
-from armscope.physics.effect import Effect, Part
+from armscope.physics.effect import Effect
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
@@ -21,16 +20,15 @@ from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
 from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
-from armscope.verdict.entries import angle, length, with_sign
+from armscope.verdict.entries import angle, length
 from armscope.verdict.filenames import CURVES
+from armscope.verdict.motion_in_words import correction_in_words, motion_in_words
 from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
 from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
 
 LEAST_TURN = 5e-5
 """Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
-STEADY = 0.02
-"""A motion whose range is below this share of its size is told as one number."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +68,11 @@ class Task:
     requires: str = ""
     needs: str = ""
 
+    @property
+    def unsettled(self) -> bool:
+        """Whether it is to be found out first what the cause is."""
+        return self.change == OPEN
+
 
 def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = False) -> Task:
     """What is done about a cause; what it is worth stands open.
@@ -78,7 +81,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         scene: the fitted model's, of the recorded rows.
         cause: with its parts of the fitted model.
         effect: the effect that it is cured as.
-        asked: whether the verdict asks for further measurements.
+        asked: whether further measurements that the verdict asks for settle it.
 
     Returns:
         The task.
@@ -91,7 +94,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
     if in_urdf:
         words["location"], words["row"] = _origin(scene.arm, effect)
-    words["opposite"] = _motion(scene, cause.parts, -1) or "its opposite"
+    words["correction"] = correction_in_words(scene, cause.parts)
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
         stands = angle(told["offset"].value, told["offset"].stderr)
@@ -106,15 +109,18 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["coefficient"] = value.removeprefix("−") if value.startswith("−") else f"−{value}"
     if "ratio" in told:
         words["ratio"] = f"{1 / (1 + told['ratio'].value):.6f}"
-    opposite_told = known is not None and "{opposite}" in known.cure.instruction
-    said_already = "offset" in told or words["jump"] or opposite_told or in_urdf
+    correction_told = known is not None and "{correction}" in known.cure.instruction
+    row_told = effect.effect == LINK_GEOMETRY.name and bool(told)
+    said_already = "offset" in told or words["jump"] or correction_told or row_told or in_urdf
     instruction = instruction_of(effect, scene.arm, known.cure.instruction.format(**words)) if known else ""
     rule = (known.cure.rule if known else effect.cure).replace("`", "")
     task = Task(
         what=capitalised(phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
-        motion="" if said_already else _motion(scene, cause.parts, zero=cause.zero if effect.nameless else None),
+        motion=""
+        if said_already
+        else motion_in_words(scene, cause.parts, zero=cause.zero if effect.nameless else None),
         instruction=instruction,
         cure=f"{with_numbers(rule, told.values(), effect.effect)}{_where_its_curve_is(cause, effect, rule)}"
         + _beyond_the_rule(scene.arm, cause, told),
@@ -145,8 +151,8 @@ def _in_doubt(task: Task, doubt: Doubt) -> Task:
 def _definition(cause: Repair, effect: FoundEffect) -> Effect | None:
     """What defines an effect: as it was placed, since a variant may have a cure of its own."""
     key = (effect.effect, effect.location)
-    placed = (part.placed for part in cause.parts if (part.placed.name, part.placed.location) == key)
-    return next((each.effect for each in placed), effect_named(effect.effect))
+    own = (part for part in cause.parts if (part.placed.name, part.placed.location) == key)
+    return next((part.placed.effect.told_as(float(part.values[0])) for part in own), effect_named(effect.effect))
 
 
 def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
@@ -248,47 +254,3 @@ def _row(effect: FoundEffect) -> Iterator[str]:
             continue
         size = length(p.value, p.stderr) if p.unit == "mm" else angle(p.value, p.stderr)
         yield f"{p.name} = stated {p.name} {size}"
-
-
-def _motion(scene: Scene, parts: tuple[Part, ...], sign: int = 1, zero: float | None = None) -> str:
-    """The largest turn and shift of parts over the recorded rows, in words, with signs.
-
-    Args:
-        scene: the rows.
-        parts: that move.
-        sign: -1 to undo them.
-        zero: what stands in the place of the mean, as in a curve's table; None for the motion as it is.
-
-    Returns:
-        Which place moves how, from ... to.
-    """
-    amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
-    for direction, amount in scene.amounts(parts).items():
-        place = Location.of(direction.location)
-        if place.kind in ("instrument", "payload"):
-            continue
-        turning = direction.axis == "turn" or direction.axis.startswith("r")
-        about = "" if direction.axis == "turn" else f" {'about' if turning else 'along'} {direction.axis[1:]}"
-        name = f"joint {place.number}" if place.kind == "motor" else direction.location
-        amounts["turns" if turning else "moves"].append((f"{name}{about}", sign * np.asarray(amount)))
-    told = []
-    for verb, found in amounts.items():
-        if found:
-            name, amount = max(found, key=lambda pair: float(np.abs(pair[1]).max()))
-            amount = amount if zero is None else amount - amount.mean() + zero
-            if np.abs(amount).max() > 0:
-                told.append(f"{name} {verb} by {_range(amount, verb == 'turns')}")
-    return "; ".join(told)
-
-
-def _range(amount: Array, turning: bool) -> str:
-    low, high = float(amount.min()), float(amount.max())
-    if high - low < STEADY * max(abs(low), abs(high)):
-        low = high = float(amount.mean())
-    ends = [low] if low == high else [low, high]
-
-    small = " … ".join(with_sign(1e3 * end, 3) for end in ends)
-    if not turning:
-        return f"{small} mm"
-    degrees = " … ".join(with_sign(math.degrees(end), 4) for end in ends)
-    return f"{small} mrad ({degrees}°)"

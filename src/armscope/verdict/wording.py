@@ -99,17 +99,16 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
 
 def half_interval(parameter: Parameter) -> str:
     """ " (± 0.21)": half of a parameter's 95 % interval, in the unit in which it is read; "" where it is not known."""
-    parameter = _in_degrees(parameter)
-    if not (math.isfinite(parameter.stderr) and parameter.stderr > 0):
+    parameter, known = _in_degrees(parameter), parameter.stderr > 0
+    if not (known and math.isfinite(parameter.stderr)):
         return ""
     factor, _ = shown_unit(parameter.unit, abs(parameter.value))
     return f" (± {_number(factor * INTERVAL * parameter.stderr, decimals_for(factor * parameter.stderr))})"
 
 
 def _in_degrees(parameter: Parameter) -> Parameter:
-    if parameter.name not in ("phase", "direction"):
-        return parameter
-    return Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
+    in_degrees = Parameter(parameter.name, "deg", math.degrees(parameter.value), math.degrees(parameter.stderr))
+    return in_degrees if parameter.name in ("phase", "direction") else parameter
 
 
 def spelled(count: int) -> str:
@@ -133,7 +132,13 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
     places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
     if not places:
         return [f"{spelled(len(others))} more at the same place"] if others else []
-    where = places_in_words(places) if len(places) <= MOST_PLACES else f"{spelled(len(places))} more places"
+    if len(places) > MOST_PLACES:
+        return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
+    kinds: dict[str, list[str]] = {}  # "joint 2 has play (also off: joint 4)" would be read as play of joint 4
+    for effect in (each for each in others if each.location in places):
+        kind = "" if effect.effect == told.effect else f"{plain(effect.effect)} at "
+        kinds.setdefault(kind, []).append(effect.location)
+    where = enumerated([kind + places_in_words(list(dict.fromkeys(those))) for kind, those in kinds.items()])
     return [f"{_ALSO.get(family, 'also')}: {where}"]
 
 

@@ -11,7 +11,7 @@ from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRANSMISSION
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import Cause
+from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.entered_together import Job, in_one_step, moved_by, pays_together
 from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.importance import minor_and_told
@@ -93,10 +93,13 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     """The work order of a verdict: tasks for effects that pay in their turn, and for small errors of a cause."""
     rows = spread_evenly(len(verdict.recordings), MOST_ROWS)
     scene = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows))).scene
-    asked = verdict.next_poses is not None
+
+    def asked(effect: FoundEffect) -> bool:
+        poses = verdict.next_poses
+        return poses is not None and poses.settle and poses.ask_about(effect)
 
     def jobs(some: Sequence[Repair]) -> list[Job]:
-        return [(task_of(scene, each, each.effects[0], asked), each.moved) for each in some]
+        return [(task_of(scene, each, each.effects[0], asked(each.effects[0])), each.moved) for each in some]
 
     told, single = _told_together(verdict, worth.single)
     together = [_as_one(cause, members, jobs(members)) for cause, members in told]

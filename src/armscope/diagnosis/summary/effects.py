@@ -72,6 +72,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     """
     state, search, rivals = basis.state, basis.search, basis.rivals[chosen.candidate]
     fit, placed, candidate = state.fit, part.placed, search.candidate(chosen.candidate)
+    words = placed.effect.told_as(float(part.values[0]))
     at = fit.layout.of(placed)
     coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
@@ -82,7 +83,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         rms = min(rms, _own_size(fit, part))
     apart = [discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
     named_as, title = specific_name(candidate, too_close(candidate, rivals, apart))
-    others, confirm = listed(rivals, apart), placed.effect.confirm
+    others, confirm = listed(rivals, apart), words.confirm
     spring = balancing_spring(fit.model, part, basis.scene)
     if spring is not None:
         others, confirm = (spring, *others), f"{LOOK_FOR_A_SPRING} {confirm}"
@@ -106,9 +107,9 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         alternatives=others,
         inclusion=basis.inclusion.get(chosen.candidate),
         curve=curve_of(placed, part.values, covariance, basis.scene),
-        physics=placed.effect.physics,
+        physics=words.physics,
         confirm=confirm,
-        cure=placed.effect.cure.words,
+        cure=words.cure.words,
     )
 
 

@@ -62,34 +62,16 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def power_of_speed(speed: Array, power: float, usual: float) -> Array:
-    """A power of the speed, and its change with that power: a scanned power is never quite the true one.
+def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
+    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
 
-    Args:
-        speed: (N,) rad/s.
-        power: of its size.
-        usual: speed at which the second is none, rad/s.
-
-    Returns:
-        (N, 2), of the speed's sign.
+    So dry and viscous friction that are fitted stay what a fit without the curve would say.
     """
-    size = np.abs(speed)
-    grown = np.sign(speed) * size**power
-    return np.column_stack([grown, grown * np.log(np.maximum(size, np.finfo(float).tiny) / usual)])
-
-
-def _power(
-    m: Moment, joints: tuple[int, ...], width: float, power: float, usual: float, stated: float, *nearest: float
-) -> Array:
-    """A power of the speed and its change, less the viscous and dry friction that are nearest to each.
-
-    So dry and viscous friction that are fitted stay what a fit without the curve would say. Where viscous friction is
-    ``stated``, what it is off is the last column: a curve is another one than the straight line that was stated.
-    """
-    speed = _speed(m, joints)
-    ordinary = np.column_stack([speed, _side(m, joints, width)])
-    bent = power_of_speed(speed, power, usual) - ordinary @ np.reshape(nearest, (2, 2)).T
-    return np.column_stack([bent, speed]) if stated else bent
+    speed, turned = _speed(m, joints), _side(m, joints, width)
+    of_square, of_cube = nearest[:2], nearest[2:]
+    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
+    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
+    return np.column_stack([square, cube])
 
 
 def warmth(m: Moment, joint: int) -> Array:
@@ -274,7 +256,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "absolute speed": lambda m, joints: np.abs(_speed(m, joints)),
     "stribeck": _stribeck,
     "load friction": _load_side,
-    "power of speed": _power,
+    "powers of speed": _powers,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": _read,

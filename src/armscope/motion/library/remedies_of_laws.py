@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from armscope.motion.library.clauses import amount
 from armscope.motion.library.linkage import length
 from armscope.motion.library.remedies import Fitted
@@ -28,17 +26,14 @@ def near_rest(fitted: Fitted) -> str:
 
 
 def curve_of_speed(fitted: Fitted) -> str:
-    """A power of the speed, less the ordinary friction that is nearest to it: the joint's line has that."""
-    _, power, usual, _, *nearest = fitted.of_law
-    sizes = [fitted.numbers[name].value for name in ("bent", "steeper")]
-    off = fitted.numbers["viscous"].value if "viscous" in fitted.numbers else 0.0
-    viscous, dry = (-float(np.dot(sizes, each)) for each in np.reshape(nearest, (2, 2)).T)
-    terms = ((viscous + off, "speed"), (dry, "sign of the speed"))
+    """Square and cube of the speed, less the ordinary friction that is nearest to both: the joint's line has that."""
+    square, cube = fitted.numbers["square"], fitted.numbers["cube"]
+    nearest = fitted.of_law[1:]
+    viscous, dry = (-(square.value * a + cube.value * b) for a, b in zip(nearest[:2], nearest[2:], strict=True))
+    terms = ((square.value, "speed × |speed|"), (cube.value, "speed³"), (viscous, "speed"), (dry, "sign of the speed"))
     told = " ".join(f"{_plain(size)} × {what}" for size, what in terms if size)
-    bent, steeper = map(_plain, sizes)
-    grown = f"({bent} {steeper} × ln(|speed| / {usual:.4g})) × |speed|^{power:.4g} × sign of the speed"
-    unit = fitted.numbers["bent"].unit.partition(" s")[0]
-    return f"{fitted.in_general}: beside its dry and viscous friction {grown} {told}, in {unit}, SI."
+    unit = square.unit.partition(" s")[0]
+    return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {unit}, SI."
 
 
 def with_warmth(fitted: Fitted) -> str:

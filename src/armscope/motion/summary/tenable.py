@@ -16,7 +16,7 @@ from armscope.core.types import Array
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.motion.constants import CONSISTENCY, LIBRARY, PRIOR
+from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import agreement
 from armscope.motion.fitting.refining import carried_in, is_anywhere, sits_nowhere
 from armscope.motion.fitting.selected import SelectedCauses
@@ -99,8 +99,6 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             least[:] = 0.0
         elif placed.cause is catalogue.STRIBECK:
             least[0] = 0.0
-        elif placed.cause is catalogue.VISCOUS_CURVE and _no_power(selected, number):
-            least[:] = np.inf
         elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
@@ -169,15 +167,6 @@ def _pulls_and_pushes(selected: SelectedCauses, number: int) -> bool:
     phase, ratio, middle = placed.columns.numbers
     angle = selected.rows.q[:, placed.joints[0]] + phase
     return not pushes_one_way(selected.coefficients[layout.columns[number]], angle, ratio, middle + phase)
-
-
-def _no_power(selected: SelectedCauses, number: int) -> bool:
-    """Whether friction that grows with a power of the speed drives, or grows with another power than any scanned."""
-    columns = selected.rows.layout.columns[number][:2]
-    bent, steeper = selected.coefficients[columns]
-    error, doubt = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-    most = 2 * LIBRARY.between_powers * abs(bent)
-    return bool(bent < -CONSISTENCY.below * error or abs(steeper) > most + CONSISTENCY.below * doubt)
 
 
 def _in_place_of_friction(selected: SelectedCauses) -> Iterator[int]:

@@ -13,7 +13,7 @@ import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
-from armscope.comparison.result import POWER
+from armscope.comparison.result import POWER, wave_part
 from armscope.comparison.shared_model import PRIOR_MM
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
@@ -85,7 +85,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         found=found,
         headline=first,
         recorded=first_to_last(found.names),
-        rest=found.not_comparable if found.changes else found.would_be_seen,
+        rest=" ".join(filter(None, (found.other_load, found.not_comparable))) if found.changes else found.would_be_seen,
         tag=tag,
         answer=answer,
         tiles=_tiles(found),
@@ -204,19 +204,10 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
     plus = "+" if number.difference > 0 else ""
     also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
     return ChangedNumber(
-        _of_a_wave(number.name) or reading.label,
+        wave_part(number.name) or reading.label,
         told(before),
         told(after),
         f"{plus}{reading.value}",
         also,
         reading.interval,
     )
-
-
-def _of_a_wave(name: str) -> str:
-    """What "cosine_2" and "sine_rx" are; empty for other numbers."""
-    part, _, of = name.partition("_")
-    if part not in ("cosine", "sine"):
-        return ""
-    of = {"rx": "about x", "ry": "about y", "rz": "about z"}.get(of, f"{of} per turn" if of else "")
-    return f"{part} part of the wave{', ' * bool(of)}{of}"

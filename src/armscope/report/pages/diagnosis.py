@@ -25,6 +25,7 @@ from armscope.verdict.corrections import (
     corrected_cells,
     corrected_origins,
     corrected_rows,
+    unsettled,
     wrongly_stated,
     zero_offsets,
 )
@@ -36,7 +37,7 @@ from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.schema import Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
-from armscope.verdict.wording import capitalised, millimetres, percent
+from armscope.verdict.wording import capitalised, millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
 
 ANSWERS = {
@@ -45,7 +46,7 @@ ANSWERS = {
     "partly explained": ("depends", "partly explained"),
     "cannot tell": ("depends", "cannot tell"),
 }
-WARNINGS = ("check", "gravity", "stated noise", "fewer rows than parameters", "too few rows", "implausible")
+WARNINGS = ("check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible")
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (
     "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
@@ -99,6 +100,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "rows_with_others": _rows_with_others(subject.order),
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
+        "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
         "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))

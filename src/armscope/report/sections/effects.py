@@ -49,12 +49,17 @@ def _context(subject: Subject) -> dict[str, Any]:
         families.setdefault(effect.family, []).append((its_card, its_worth))
     share = {family: sum(e.share for e in main if e.family == family) for family in families}
     ranked = sorted(families, key=lambda family: -share[family])
-    return {**found, "families": [(family, percent(share[family]), families[family]) for family in ranked]}
+    cancel = {family: any(e.share < 0 for e in main if e.family == family) for family in families}
+    return {
+        **found,
+        "cancel": cancel,
+        "families": [(family, percent(share[family]), families[family]) for family in ranked],
+    }
 
 
 def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
     """Whether the two readings that could not be told apart are about one of these effects."""
-    return poses is not None and any(poses.first.startswith(effect.as_member) for effect in effects)
+    return poses is not None and any(map(poses.ask_about, effects))
 
 
 EFFECTS = Section("effects", "Causes", "What was found", _context, (effect_curves,))

@@ -1,0 +1,67 @@
+"""Another load at the flange, which looks like drives of another stiffness or play: nobody may have written it down."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from armscope.comparison.result import Change, Valued
+from armscope.core.types import Array
+from armscope.physics.registry import effect_named
+from armscope.robot import Arm, chain
+from armscope.robot.gravity import gravity_torques
+from armscope.verdict.effects import INTERVAL
+
+LOOKS_LIKE_PLAY = "backlash"
+"""Of a joint that gravity loads from either side: by side alone, where what gives way goes with the load itself."""
+
+
+def follows_loads(change: Change) -> bool:
+    """Whether a change goes with what gravity does to the arm, so that another load would show as it."""
+    known = effect_named(change.effect)
+    return change.effect == LOOKS_LIKE_PLAY or (known is not None and known.family == "elastic")
+
+
+def other_load(arm: Arm, angles: Array, changes: Sequence[Change]) -> str:
+    """That a changed load at the flange would look like some of the changes, and how large it would have to be.
+
+    Args:
+        arm: the nominal arm.
+        angles: (N, m) of all recordings, rad.
+        changes: what was found.
+
+    Returns:
+        A sentence; "" where no change follows loads.
+    """
+    alike = [each for each in changes if follows_loads(each)]
+    if not alike:
+        return ""
+    mass = _mass(arm, angles, alike)
+    size = "" if mass is None else f", by about {mass:+.1f} kg".replace("-", "−")
+    what = {True: "None of it need have", False: "The rest stands, but that need not have"}[len(alike) == len(changes)]
+    whose = "" if len(alike) == len(changes) else f" ({'; '.join(each.title for each in alike)})"
+    return (
+        f"{what} changed in the arm{whose}: another load at the flange{size} (a gripper, a workpiece, a cable) can "
+        "look the same. Was it the same in all recordings? If not, record payload_kg and compare again."
+    )
+
+
+def _mass(arm: Arm, angles: Array, changes: Sequence[Change]) -> float | None:
+    """kg that turn the drives as their changed compliances do; None where these are not known in all recordings."""
+    known = [(int(each.location.rpartition(" ")[2]) - 1, n) for each in changes if (n := _compliance(each)) is not None]
+    if not known or not arm.has_masses:
+        return None
+    frames = chain(arm, angles)
+    now = gravity_torques(arm, frames)
+    by_a_kilogram = gravity_torques(arm, frames, np.ones(len(angles))) - now
+    turned = np.concatenate([number.difference * now[:, joint] for joint, number in known])
+    turns = np.concatenate([number.values[0] * by_a_kilogram[:, joint] for joint, number in known])
+    return float(turned @ turns / (turns @ turns))
+
+
+def _compliance(change: Change) -> Valued | None:
+    """How a joint gives way, where its size in the first recording stands out of its uncertainty."""
+    number = next((each for each in change.parameters if each.name == "compliance"), None)
+    joint = change.effect == "joint_compliance"
+    return number if joint and number and number.values[0] > 2 * INTERVAL * number.stderrs[0] else None
