@@ -88,10 +88,9 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
     label = labels.get(parameter.name, parameter.name.replace("_", " "))
     parameter = _in_degrees(parameter)
     factor, unit = shown_unit(parameter.unit, abs(parameter.value))
-    known = math.isfinite(parameter.stderr) and parameter.stderr > 0
+    known = 0 < parameter.stderr < math.inf
     low, high = (factor * edge for edge in parameter.interval)
-    decimals = decimals_for(factor * parameter.stderr) if known else None
-    decimals = 0 if parameter.name == "row" else decimals
+    decimals = 0 if parameter.name == "row" else decimals_for(factor * parameter.stderr) if known else None
     value = f"{_number(factor * parameter.value, decimals)} {unit}".strip().replace(" °", "°")
     interval = f"{_number(low, decimals)} … {_number(high, decimals)} {unit}" if known else "found by trying values"
     return Reading(label, value, interval.replace(" °", "°"), _said_otherwise(parameter))
@@ -99,11 +98,11 @@ def read_parameter(parameter: Parameter, effect: str = "") -> Reading:
 
 def half_interval(parameter: Parameter) -> str:
     """ " (± 0.21)": half of a parameter's 95 % interval, in the unit in which it is read; "" where it is not known."""
-    parameter, known = _in_degrees(parameter), parameter.stderr > 0
-    if not (known and math.isfinite(parameter.stderr)):
+    parameter = _in_degrees(parameter)
+    if not 0 < parameter.stderr < math.inf:
         return ""
-    factor, _ = shown_unit(parameter.unit, abs(parameter.value))
-    return f" (± {_number(factor * INTERVAL * parameter.stderr, decimals_for(factor * parameter.stderr))})"
+    error = shown_unit(parameter.unit, abs(parameter.value))[0] * parameter.stderr
+    return f" (± {_number(INTERVAL * error, decimals_for(error))})"
 
 
 def _in_degrees(parameter: Parameter) -> Parameter:
@@ -134,7 +133,7 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
         return [f"{spelled(len(others))} more at the same place"] if others else []
     if len(places) > MOST_PLACES:
         return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
-    kinds: dict[str, list[str]] = {}  # "joint 2 has play (also off: joint 4)" would be read as play of joint 4
+    kinds: dict[str, list[str]] = {}  # "has play (also off: joint 4)" would be read as play of joint 4
     for effect in (each for each in others if each.location in places):
         kind = "" if effect.effect == told.effect else f"{plain(effect.effect)} at "
         kinds.setdefault(kind, []).append(effect.location)
