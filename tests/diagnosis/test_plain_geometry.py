@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.plain_geometry import as_plain_geometry
+from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import Problem, SelectedEffect, build_problem
+from armscope.inference.search import Search
 from armscope.physics.elastic import tilting_joints
 from armscope.physics.registry import library
 from armscope.physics.scene import Scene
@@ -59,3 +66,61 @@ def test_a_zero_and_a_ratio_of_one_joint_are_two_names_and_nothing_unknown(arm: 
     wanted = {("joint_offset", "joint 5"): [-6.7e-4], ("gear_ratio", "joint 5"): [5e-4]}
     found = told(arm, wanted, 160, 5)
     assert {(effect, place) for effect, place, _ in found} == set(wanted)
+
+
+EFFECT, LINK, OTHER_LINK = range(3)
+
+
+def problem_where(kind: str, alike: float) -> Problem:
+    """An effect of one column, which made all there is, and two links of three; one of these columns is nearly its own.
+
+    Args:
+        kind: of the effect.
+        alike: correlation of that column with the effect's.
+    """
+    rng = np.random.default_rng(6)
+    X = rng.normal(size=(200, 9))
+    X[:, 3] = alike * X[:, 2] + np.sqrt(1 - alike**2) * X[:, 3]
+    y = 0.3 * X[:, 2] + rng.normal(0, 0.1, len(X))
+    at = (np.array([2]), np.arange(3, 6), np.arange(6, 9))
+    kinds = ((kind, "joint 2"), ("link_geometry", "link 1"), ("link_geometry", "link 4"))
+    candidates = tuple(Candidate(*key, columns, np.ones(len(columns))) for key, columns in zip(kinds, at, strict=True))
+    space = ModelSpace(np.arange(2), (), candidates)
+    return build_problem(space, NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(len(y))), 0.05)
+
+
+def named_alone(problem: Problem) -> Hypothesis:
+    """The effect by itself, at the size that suits it best."""
+    sized = [evaluate(problem, (SelectedEffect(EFFECT, n),), (), 0.1) for n in range(len(problem.sizes))]
+    return max(sized, key=lambda hypothesis: hypothesis.log_posterior)
+
+
+@pytest.mark.parametrize("kind", ["bearing_compliance", "axis_wobble", "link_bending"])
+def test_the_link_whose_rows_say_the_same_has_the_name_though_it_pays_for_more_numbers(kind: str) -> None:
+    problem = problem_where(kind, 0.9999)
+    alone = named_alone(problem)
+    found = as_plain_geometry(Search.on(problem), alone)
+    assert found.candidates == {LINK}
+    assert found.log_posterior < alone.log_posterior
+
+
+@pytest.mark.parametrize("alike", [0.0, 0.9])
+def test_what_rows_tell_from_every_link_keeps_its_name(alike: float) -> None:
+    problem = problem_where("bearing_compliance", alike)
+    assert as_plain_geometry(Search.on(problem), named_alone(problem)).candidates == {EFFECT}
+
+
+def test_a_drive_turns_a_joint_and_is_no_links_error() -> None:
+    problem = problem_where("joint_compliance", 0.9999)
+    assert as_plain_geometry(Search.on(problem), named_alone(problem)).candidates == {EFFECT}
+
+
+def test_a_zero_counts_beside_two_that_follow_its_angle_and_not_beside_one() -> None:
+    """Of a free curve's special cases: a counterbalance was told as a wave, a ratio and a zero."""
+    zero, ratio, wave = 0, 1, 2
+    none = np.arange(0)
+    curve = Candidate(
+        "unknown", "joint 2", none, none, special_cases=frozenset({zero, ratio, wave}), common=frozenset({zero})
+    )
+    excess = [curve.excess(frozenset(names)) for names in ([zero, ratio], [ratio, wave], [zero, ratio, wave])]
+    assert excess == [0, 1, 2]

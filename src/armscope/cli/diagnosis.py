@@ -127,10 +127,11 @@ def diagnose(
 
             tell("drawing the report", 0.95)
             write_report(verdict, output)
+    from armscope.check.suspicion import BESIDE
     from armscope.verdict.payload_place import of_payloads
 
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
-    for notice in (*(each for each in verdict.notices if each.kind in ("check", "gravity")), *obstacle):
+    for notice in (*(each for each in verdict.notices if each.kind in ("check", *BESIDE)), *obstacle):
         print(f"note: {notice.text}", file=sys.stderr)
     if json:
         print_json(verdict.to_json())

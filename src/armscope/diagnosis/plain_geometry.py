@@ -1,8 +1,9 @@
 """A link's own error in place of what can't be told from it: a load that hardly varies, a wobble hardly turned.
 
 A bearing that tilts under a load that is the same in all poses is a link that is twisted. It pays for one number where
-a link pays for all of its row, and so comes first although it fits no better. Every arm has errors of its links, and
-the corrected row takes the tool where it should go in either case; a new bearing does in one.
+a link pays for all of its row, and so comes first although it fits no better. Every arm has errors of its links, and in
+poses like the recorded ones the corrected row takes the tool where it should go in either case; a new bearing does in
+one. The other stands as what it may be as well.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class NextPoses:
         return bool(np.isfinite(self.repeats_needed))
 
     def ask_about(self, effect: FoundEffect) -> bool:
-        """Whether one of the two readings is this effect."""
+        """Whether the first of the two readings, the one that stands in the verdict, is this effect."""
         return self.first.startswith(effect.as_member)
 
 
