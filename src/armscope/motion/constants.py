@@ -62,9 +62,7 @@ class LibraryRules(Constants):
         5, "speeds that are scanned", "judgement: they follow in steps of two", unit="speeds"
     )
     between_speeds: float = constant(
-        0.5,
-        "relative change of a scanned speed that its cause allows for",
-        "derived: half a step of the scan",
+        0.5, "relative change of a scanned speed that its cause allows for", "derived: half a step of the scan"
     )
     delays_s: tuple[float, ...] = constant(
         (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
@@ -98,13 +96,16 @@ class LibraryRules(Constants):
     knots_of_position: int = constant(10, "of a free curve of the position", "judgement: a few bends", unit="columns")
     knots_of_bend: int = constant(4, "of a curve that bends once", "derived: the least spline", unit="columns")
     knots_of_others: int = constant(7, "of other free curves", "judgement: a few bends", unit="columns")
-    knots_of_time: int = constant(
-        4, "of a drift", "judgement: a cubic; what changes faster is no drift", unit="columns"
-    )
+    knots_of_time: int = constant(4, "of a drift", "judgement: a cubic; faster is no drift", unit="columns")
     least_warming_k: float = constant(
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
+    powers: tuple[float, ...] = constant(
+        (1 / 3, 1 / 2, 2 / 3, 4 / 3, 3 / 2, 2.0, 5 / 2, 3.0),
+        "of speed to which friction may grow",
+        "judgement: grease that thins as it is sheared, below 1; oil that is churned, a square",
+    )
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -30,16 +31,22 @@ class Case:
 
 
 def near_rest(cure: str) -> Torque:
-    height, speed, *_ = told(cure, "model: ")
-    assert "× exp(-(speed / (" in cure
-    assert cure.endswith("× sign of the speed.")
-    return at_joint(lambda q, v, a, T: height * np.exp(-((v / speed) ** 2)) * np.sign(v))
+    if "× 2 x" in cure:
+        height, wider, speed = [*told(cure.replace("2 x", ""), "model: ")[:2], *told(cure, "x is (speed / (")[:1]]
+    else:
+        (height, speed, *_), wider = told(cure, "model: "), 0.0
+        assert "× exp(-(speed / (" in cure
+        assert cure.endswith("× sign of the speed.")
+    x = lambda v: (v / speed) ** 2
+    return at_joint(lambda q, v, a, T: (height + wider * 2 * x(v)) * np.exp(-x(v)) * np.sign(v))
 
 
 def curve(cure: str) -> Torque:
-    assert "× speed × |speed| " in cure
-    square, cube = told(cure.replace("speed³", "cube"), "friction ")[:2]
-    return at_joint(lambda q, v, a, T: square * v * np.abs(v) + cube * v**3)
+    written = re.search(r" × \|speed\|\^([\d.]+) × sign of the speed", cure)
+    assert written
+    power = float(written[1])
+    bent, viscous, dry = [*told(cure, "friction "), 0.0, 0.0][:3]
+    return at_joint(lambda q, v, a, T: np.sign(v) * bent * np.abs(v) ** power + viscous * v + dry * np.sign(v))
 
 
 def with_warmth(cure: str) -> Torque:
@@ -141,6 +148,9 @@ CASES = {
         "stribeck_friction", AT, at_joint(lambda q, v, a, T: 3 * np.exp(-((v / 0.15) ** 2)) * np.sign(v)), near_rest
     ),
     "curve of speed": Case("viscous_curve", AT, at_joint(lambda q, v, a, T: 2.0 * v * np.abs(v)), curve),
+    "grease that thins": Case(
+        "viscous_curve", AT, at_joint(lambda q, v, a, T: 4.0 * np.abs(v) ** 0.6 * np.sign(v)), curve
+    ),
     "warm": Case("thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * v), with_warmth, True),
     "warm and dry": Case(
         "thermal_friction", AT, at_joint(lambda q, v, a, T: -0.12 * (T - 25) * np.sign(v)), with_warmth, True

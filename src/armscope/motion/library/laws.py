@@ -62,16 +62,31 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def _powers(m: Moment, joints: tuple[int, ...], width: float, *nearest: float) -> Array:
-    """Square and cube of the speed, less the viscous and dry friction that are nearest to each.
+def power_of_speed(speed: Array, width: float, power: float) -> Array:
+    """A power of the speed; below the speed over which friction changes sides it is what it is there.
 
-    So dry and viscous friction that are fitted stay what a fit without the curve would say.
+    A root of the speed, steep at rest, would else be told where friction changes sides in another way than the model's.
+
+    Args:
+        speed: (N,) rad/s.
+        width: speed over which friction changes sides, rad/s.
+        power: of the speed.
+
+    Returns:
+        (N,), above zero.
+    """
+    return np.asarray(np.maximum(np.abs(speed), width) ** power)
+
+
+def _power(m: Moment, joints: tuple[int, ...], width: float, power: float, stated: float, *nearest: float) -> Array:
+    """A power of the speed, less the viscous and dry friction that are nearest to it.
+
+    So dry and viscous friction that are fitted stay what a fit without the curve would say. Where viscous friction is
+    ``stated``, what it is off is a second column: a curve is another one than the straight line that was stated.
     """
     speed, turned = _speed(m, joints), _side(m, joints, width)
-    of_square, of_cube = nearest[:2], nearest[2:]
-    square = speed * np.abs(speed) - of_square[0] * speed - of_square[1] * turned
-    cube = speed**3 - of_cube[0] * speed - of_cube[1] * turned
-    return np.column_stack([square, cube])
+    bent = turned * power_of_speed(speed, width, power) - np.column_stack([speed, turned]) @ nearest
+    return np.column_stack([bent, speed]) if stated else bent
 
 
 def warmth(m: Moment, joint: int) -> Array:
@@ -256,7 +271,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "absolute speed": lambda m, joints: np.abs(_speed(m, joints)),
     "stribeck": _stribeck,
     "load friction": _load_side,
-    "powers of speed": _powers,
+    "power of speed": _power,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": _read,

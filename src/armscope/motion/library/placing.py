@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.laws import Law
+from armscope.motion.library.laws import Law, power_of_speed
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
@@ -94,13 +94,6 @@ class _Joint:
         return float(sharp_width(self.seen.arm)[self.number])
 
     @property
-    def nearest(self) -> tuple[float, ...]:
-        """Viscous and dry friction, where they are not stated, nearest to powers of the speeds at which it moves."""
-        speeds = self.seen.speeds[self.number]
-        dry, viscous = np.isnan(self.seen.arm.stated_background[self.number, 1:3])
-        return _nearest_to_powers(speeds[speeds > self.width], (viscous, dry))
-
-    @property
     def both_ways(self) -> bool:
         """Whether it moves fast enough either way to show friction."""
         slow = LIBRARY.slow * self.width
@@ -120,22 +113,6 @@ class _Joint:
         return self.cause(cause, driver, names, f"curve over {driver}", *limits, knots, is_curve=True, **more)
 
 
-def _nearest_to_powers(speeds: Array, fitted: Sequence[bool]) -> tuple[float, ...]:
-    """Viscous and dry friction that are nearest to square and cube at some speeds, as `powers of speed` takes them.
-
-    Args:
-        speeds: (N,) rad/s.
-        fitted: whether viscous and dry friction are; of a stated one the powers take nothing off, or a curve alone
-            would be told as a curve and two departures from what is stated.
-
-    Returns:
-        Viscous and dry friction of the square, then of the cube.
-    """
-    ordinary = np.column_stack([np.abs(speeds), np.ones_like(speeds)]) * np.array(fitted)
-    found = np.linalg.lstsq(ordinary, np.abs(speeds)[:, None] ** [2, 3], rcond=None)[0]
-    return tuple(map(float, found.T.ravel()))
-
-
 def _friction(at: _Joint) -> Iterator[PlacedCause]:
     torque, unit = at.torque, at.unit
     by_side = (("viscous_difference", f"{torque} s/{unit}"),)
@@ -148,8 +125,27 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
         more["expected"] = (1.0, LIBRARY.between_speeds)
         yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
-    powers = (("square", f"{torque} s^2/{unit}^2"), ("cube", f"{torque} s^3/{unit}^3"))
-    yield at.cause(catalogue.VISCOUS_CURVE, "speed", powers, "powers of speed", at.sharp, *at.nearest)
+    yield from _curved(at)
+
+
+def _curved(at: _Joint) -> Iterator[PlacedCause]:
+    """Friction that grows with a power of the speed, and not with the speed itself.
+
+    Of dry or viscous friction that is stated a power takes nothing off: a curve alone would be told as a curve and two
+    departures from what is stated.
+    """
+    dry, viscous = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
+    speeds = at.seen.speeds[at.number]
+    speeds = speeds[speeds > at.width]
+    ordinary = np.column_stack([speeds, np.ones_like(speeds)]) * np.array([not viscous, not dry])
+    for power in LIBRARY.powers:
+        nearest = np.linalg.lstsq(ordinary, power_of_speed(speeds, at.sharp, power), rcond=None)[0]
+        names = (("bent", f"{at.torque} s^{power:.2g}/{at.unit}^{power:.2g}"), ("viscous", f"{at.torque} s/{at.unit}"))
+        how: dict[str, Any] = {"variant": f"{power:.2g}", "scanned": (("power", "", power),)}
+        law = ("power of speed", at.sharp, power, viscous, *nearest)
+        yield at.cause(
+            catalogue.VISCOUS_CURVE, "speed", names[: 1 + viscous], *law, multiplicity=len(LIBRARY.powers), **how
+        )
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:

@@ -26,14 +26,15 @@ def near_rest(fitted: Fitted) -> str:
 
 
 def curve_of_speed(fitted: Fitted) -> str:
-    """Square and cube of the speed, less the ordinary friction that is nearest to both: the joint's line has that."""
-    square, cube = fitted.numbers["square"], fitted.numbers["cube"]
-    nearest = fitted.of_law[1:]
-    viscous, dry = (-(square.value * a + cube.value * b) for a, b in zip(nearest[:2], nearest[2:], strict=True))
-    terms = ((square.value, "speed × |speed|"), (cube.value, "speed³"), (viscous, "speed"), (dry, "sign of the speed"))
-    told = " ".join(f"{_plain(size)} × {what}" for size, what in terms if size)
-    unit = square.unit.partition(" s")[0]
-    return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {unit}, SI."
+    """A power of the speed, less the ordinary friction that is nearest to it: the joint's line has that."""
+    _, power, _, *nearest = fitted.of_law
+    bent = fitted.numbers["bent"]
+    off = fitted.numbers["viscous"].value if "viscous" in fitted.numbers else 0.0
+    viscous, dry = (-bent.value * part for part in nearest)
+    grown = f"{_plain(bent.value)} × |speed|^{power:.4g} × sign of the speed"
+    terms = ((viscous + off, "speed"), (dry, "sign of the speed"))
+    told = " ".join([grown, *(f"{_plain(size)} × {what}" for size, what in terms if size)])
+    return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {bent.unit.partition(' s')[0]}, SI."
 
 
 def with_warmth(fitted: Fitted) -> str:

@@ -12,7 +12,7 @@ from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals
 
-OF_SPEED = ("absolute speed", "stribeck", "powers of speed", "curve over speed")
+OF_SPEED = ("absolute speed", "stribeck", "power of speed", "curve over speed")
 """Laws that follow nothing but a joint's own speed."""
 
 

@@ -97,7 +97,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             least[:] = -stated[placed.of_background]
         elif placed.cause is catalogue.COUPLED_FRICTION:
             least[:] = 0.0
-        elif placed.cause is catalogue.STRIBECK:
+        elif placed.cause in (catalogue.STRIBECK, catalogue.VISCOUS_CURVE):
             least[0] = 0.0
         elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
             yield number
