@@ -106,6 +106,10 @@ class LibraryRules(Constants):
         "of speed to which friction may grow",
         "judgement: grease that thins as it is sheared, below 1; oil that is churned, a square",
     )
+    close_powers: float = constant(0.1, "of a power, to the next, which no motion tells apart", "judgement: a trace")
+    usual_speeds: tuple[float, ...] = constant(
+        (5, 20, 35, 50, 65, 80, 95), "at which a power is told from viscous friction", "judgement: all of it", unit="%"
+    )
 
 
 @dataclass(frozen=True)

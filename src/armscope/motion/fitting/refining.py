@@ -20,6 +20,7 @@ from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
+from armscope.motion.library.powers import closer
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""
@@ -34,6 +35,10 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
             exact, rests = _exact(selected, number)
             placed[number], moved = exact, moved or not rests
+            continue
+        if cause.cause is catalogue.VISCOUS_CURVE:
+            for other, closer_power in _closer_powers(selected, number).items():
+                placed[other], moved = closer_power, True
             continue
         if cause.variant == BETWEEN_LINKS:
             continue
@@ -75,6 +80,18 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
             placed[number], rests = remounted(selected, number)
             moved = moved or not rests
     return replace(layout, placed=tuple(placed)) if moved else None
+
+
+def _closer_powers(selected: SelectedCauses, number: int) -> dict[int, PlacedCause]:
+    """Powers of a joint's speed in place of those that were not chosen, by their numbers."""
+    layout, best = selected.rows.layout, selected.best.candidates
+    (joint,) = layout.placed[number].joints
+    others = {
+        n: each
+        for n, each in enumerate(layout.placed)
+        if each.cause is catalogue.VISCOUS_CURVE and each.joints == (joint,) and n not in best
+    }
+    return closer(layout.placed[number], others, bool(layout.arm.sliding[joint]))
 
 
 def is_anywhere(cause: PlacedCause) -> bool:

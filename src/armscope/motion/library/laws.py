@@ -17,6 +17,7 @@ from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.linkage import spring_between_links
+from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
 from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
@@ -62,31 +63,18 @@ def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return np.asarray(np.abs(m.rigid[:, joints[0]]) * _side(m, joints, width))
 
 
-def power_of_speed(speed: Array, width: float, power: float) -> Array:
-    """A power of the speed; below the speed over which friction changes sides it is what it is there.
-
-    A root of the speed, steep at rest, would else be told where friction changes sides in another way than the model's.
-
-    Args:
-        speed: (N,) rad/s.
-        width: speed over which friction changes sides, rad/s.
-        power: of the speed.
-
-    Returns:
-        (N,), above zero.
-    """
-    return np.asarray(np.maximum(np.abs(speed), width) ** power)
-
-
-def _power(m: Moment, joints: tuple[int, ...], width: float, power: float, stated: float, *nearest: float) -> Array:
+def _power(
+    m: Moment, joints: tuple[int, ...], width: float, power: float, viscous: float, dry: float, *speeds: float
+) -> Array:
     """A power of the speed, less the viscous and dry friction that are nearest to it.
 
     So dry and viscous friction that are fitted stay what a fit without the curve would say. Where viscous friction is
-    ``stated``, what it is off is a second column: a curve is another one than the straight line that was stated.
+    stated, what it is off is a second column: a curve is another one than the straight line that was stated.
     """
     speed, turned = _speed(m, joints), _side(m, joints, width)
+    nearest = nearest_ordinary(width, power, viscous, dry, *speeds)
     bent = turned * power_of_speed(speed, width, power) - np.column_stack([speed, turned]) @ nearest
-    return np.column_stack([bent, speed]) if stated else bent
+    return bent if viscous else np.column_stack([bent, speed])
 
 
 def warmth(m: Moment, joint: int) -> Array:

@@ -13,10 +13,11 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
-from armscope.motion.library.laws import Law, power_of_speed
+from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
+from armscope.motion.library.powers import with_power
 from armscope.motion.library.sides import coulomb_width, sharp_width
 from armscope.robot.dynamics import MovingArm
 
@@ -129,23 +130,15 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
 
 
 def _curved(at: _Joint) -> Iterator[PlacedCause]:
-    """Friction that grows with a power of the speed, and not with the speed itself.
-
-    Of dry or viscous friction that is stated a power takes nothing off: a curve alone would be told as a curve and two
-    departures from what is stated.
-    """
-    dry, viscous = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
-    speeds = at.seen.speeds[at.number]
-    speeds = speeds[speeds > at.width]
-    ordinary = np.column_stack([speeds, np.ones_like(speeds)]) * np.array([not viscous, not dry])
-    for power in LIBRARY.powers:
-        nearest = np.linalg.lstsq(ordinary, power_of_speed(speeds, at.sharp, power), rcond=None)[0]
-        names = (("bent", f"{at.torque} s^{power:.2g}/{at.unit}^{power:.2g}"), ("viscous", f"{at.torque} s/{at.unit}"))
-        how: dict[str, Any] = {"variant": f"{power:.2g}", "scanned": (("power", "", power),)}
-        law = ("power of speed", at.sharp, power, viscous, *nearest)
-        yield at.cause(
-            catalogue.VISCOUS_CURVE, "speed", names[: 1 + viscous], *law, multiplicity=len(LIBRARY.powers), **how
-        )
+    """Friction that grows with a power of the speed, and not with the speed itself."""
+    dry, viscous = np.isnan(at.seen.arm.stated_background[at.number, 1:3])
+    speeds = np.maximum(np.percentile(at.seen.speeds[at.number], LIBRARY.usual_speeds), at.width)
+    parameters = (("bent", at.torque), ("viscous", f"{at.torque} s/{at.unit}"))[: 1 + (not viscous)]
+    law = ("power of speed", at.sharp, 1.0, viscous, dry, *speeds)
+    any_power = at.cause(
+        catalogue.VISCOUS_CURVE, "speed", parameters, *law, multiplicity=len(LIBRARY.powers), variant="power"
+    )
+    yield from (with_power(any_power, power, at.seen.arm.sliding[at.number]) for power in LIBRARY.powers)
 
 
 def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from armscope.motion.library.clauses import amount
 from armscope.motion.library.linkage import length
+from armscope.motion.library.power_law import nearest_ordinary
 from armscope.motion.library.remedies import Fitted
 from armscope.verdict.effects import INTERVAL, Parameter
 
@@ -27,10 +28,9 @@ def near_rest(fitted: Fitted) -> str:
 
 def curve_of_speed(fitted: Fitted) -> str:
     """A power of the speed, less the ordinary friction that is nearest to it: the joint's line has that."""
-    _, power, _, *nearest = fitted.of_law
-    bent = fitted.numbers["bent"]
+    bent, power = fitted.numbers["bent"], fitted.numbers["power"].value
     off = fitted.numbers["viscous"].value if "viscous" in fitted.numbers else 0.0
-    viscous, dry = (-bent.value * part for part in nearest)
+    viscous, dry = -bent.value * nearest_ordinary(*fitted.of_law)
     grown = f"{_plain(bent.value)} × |speed|^{power:.4g} × sign of the speed"
     terms = ((viscous + off, "speed"), (dry, "sign of the speed"))
     told = " ".join([grown, *(f"{_plain(size)} × {what}" for size, what in terms if size)])
