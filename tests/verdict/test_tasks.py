@@ -59,11 +59,13 @@ def test_play_that_leads_its_command_is_a_sign_to_be_turned_and_no_gear_to_be_ad
     assert "has 0.50 mrad of play, if its column of approach has the wrong sign" in task.what
     assert task.instruction.startswith("Turn the sign of joint 2's approach column")
     assert "commanded = wanted - approach x gap / 2" in task.cure
+    assert task.needs.startswith("once the play is adjusted or commanded away")
     right = replace(cause, parts=(Part(placed, np.array([5e-4])),))
     told = task_of(scene, right, replace(play, parameters=(Parameter("gap", "rad", 5e-4, 1e-5),)))
     assert told.what == "Joint 2 has 0.50 mrad of play"
     assert "commanded = wanted + approach x gap / 2" in told.cure
     assert "gravity" not in told.cure
+    assert not told.needs
 
 
 def test_a_correction_is_no_error_said_with_the_same_verb() -> None:
@@ -201,7 +203,7 @@ def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
     table = replace(case.recordings, motor_angles=case.recordings.motor_angles[:, : arm.n_motors])
     task = task_of(Scene(arm, table), replace(cause, parts=()), longer)
     assert task.change == "joint origin"
-    assert f"joint {arm.joint_names[2]}'s origin" in task.instruction
+    assert f"Correct link 3, joint {arm.joint_names[2]}'s origin, in the controller's model" in task.instruction
     assert '<origin xyz="' in task.instruction
 
 

@@ -51,7 +51,7 @@ class Context:
 
     @property
     def constant(self) -> bool:
-        """Whether it never changes, so that nothing can be learned from it."""
+        """Whether it never changes, so that nothing shows what changes with it."""
         return self.low == self.high
 
 

@@ -93,7 +93,7 @@ def _of_table(contents: Contents) -> tuple[Suspicion, ...]:
     constant = [each.name for each in contents.context if each.constant and not each.name.startswith(NOT_A_DRIVER)]
     if constant:
         verb, it = ("never changes", "it") if len(constant) == 1 else ("never change", "them")
-        found.append(Suspicion("hint", f"{', '.join(constant)} {verb}, so nothing can be learned from {it}"))
+        found.append(Suspicion("hint", f"{', '.join(constant)} {verb}, so nothing shows what changes with {it}"))
     if contents.repeats.copies:
         statement = f"{contents.repeats.copies} rows are copies of other rows, to the last digit"
         found.append(Suspicion("hint", statement, "A table pasted twice? `armscope diagnose` leaves them out."))

@@ -24,7 +24,7 @@ def from_commands(scene: LoadedArm, part: Part) -> Array:
     return angles
 
 
-def command(mend: str, change: str = "", instruction: str = "", otherwise: str = "") -> Cure:
+def command(mend: str, change: str = "", instruction: str = "", otherwise: str = "", needs: str = "") -> Cure:
     """A cure by other commands: the motors' angles less what the effect adds to them.
 
     Args:
@@ -32,8 +32,9 @@ def command(mend: str, change: str = "", instruction: str = "", otherwise: str =
         change: as in `Cure`.
         instruction: as in `Cure`.
         otherwise: as in `Cure`.
+        needs: as in `Cure`.
 
     Returns:
         The cure.
     """
-    return Cure(mend, otherwise=otherwise, commanded=from_commands, change=change, instruction=instruction)
+    return Cure(mend, otherwise=otherwise, commanded=from_commands, change=change, instruction=instruction, needs=needs)

@@ -201,6 +201,7 @@ class Cure:
         change: what is changed, in two words, for a work order.
         instruction: how, as a work order says it: a template over {location} and what is known of the effect
             (`armscope.verdict.work_order`).
+        needs: what has to be done besides before the error is any less, in words.
         commanded: (scene at the wanted angles, fitted part) -> (N, m) angles to command, rad.
         statement: part -> by how much what was stated is wrong, which is then put right.
         readings: ((N, 3) readings in base axes, part) -> corrected readings.
@@ -212,6 +213,7 @@ class Cure:
     otherwise: str = field(default="", kw_only=True)
     change: str = field(default="", kw_only=True)
     instruction: str = field(default="", kw_only=True)
+    needs: str = field(default="", kw_only=True)
     commanded: Callable[[LoadedArm, Part], Array] | None = None
     statement: Callable[[Part], Misstated] | None = None
     readings: Callable[[Array, Part], Array] | None = None

@@ -202,6 +202,7 @@ _REVERSED = replace(
         otherwise="or, once the sign is turned, compensate for the play in the command: commanded = wanted - approach "
         "x gap / 2 (gap as it is told here, below zero; approach: +1 after a positive motion).",
         change="sign of its approach column",
+        needs="once the play is adjusted or commanded away: a sign in a table moves nothing",
         instruction="Turn the sign of {location}'s approach column in the recordings (+1: the last motion was "
         "positive) and diagnose again before anything is done to the gear. If it is right as it is, lower the "
         "controller's backlash compensation.",

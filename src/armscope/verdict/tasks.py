@@ -129,6 +129,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         members=(effect.as_member,),
         family=effect.family,
         requires=known.requires if known else "",
+        needs=known.cure.needs if known else "",
     )
     doubt = doubt_of(effect, asked)
     return task if doubt is None else _in_doubt(task, doubt)
@@ -160,7 +161,9 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     joint = Location.of(effect.location).number
     xyz, rpy = place_and_angles(corrected_origin(arm, effect, joint))
     numbers = (" ".join(f"{value:.6f}" for value in np.round(each, 6) + 0.0) for each in (xyz, rpy))
-    return f"joint {arm.joint_names[joint - 1]}'s origin", '<origin xyz="{}" rpy="{}"/>'.format(*numbers)
+    return f"{effect.location}, joint {arm.joint_names[joint - 1]}'s origin,", '<origin xyz="{}" rpy="{}"/>'.format(
+        *numbers
+    )
 
 
 FORMULA = re.compile(r"(?:commanded|length|mass) = (.*)", re.DOTALL)
