@@ -87,10 +87,10 @@ LOAD_FRICTION = Cause(
 VISCOUS_CURVE = Cause(
     "viscous_curve",
     FRICTION,
-    "Viscous friction is not proportional to speed.",
+    "Friction grows with another power of the speed than the first.",
     "Drive the joint at constant speeds up to its fastest.",
     "Use a curve of friction over speed instead of one coefficient.",
-    clause=clauses.at_place("friction of {} is not in proportion to speed"),
+    clause=clauses.power_clause,
     remedy=remedies_of_laws.curve_of_speed,
 )
 TEMPERATURE_FRICTION = Cause(

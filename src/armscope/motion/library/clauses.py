@@ -98,6 +98,12 @@ def asymmetric_clause(cause: FoundCause, numbers: Numbers) -> str:
     return f"{told}, as much {backward} backward"
 
 
+def power_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Friction that grows with a power of the speed."""
+    power = f"as its speed to the power of {numbers['power'].value:.2g}"
+    return f"friction of {cause.location} grows {power}, not in proportion to it ({rms_of(cause)})"
+
+
 def delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Torque recorded late, or early."""
     delay = numbers["delay"]
