@@ -26,7 +26,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import Law, is_of_a_gain
-from armscope.motion.library.layout import OWN
+from armscope.motion.library.layout import OWN, TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
@@ -52,7 +52,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         wrong = _untenable(selected, rate)
         if not wrong:
             break
-        barred |= wrong
+        barred |= wrong | _alike(selected.rows.layout, wrong)
         space = without_backgrounds(build_space(selected.rows.layout, torque, rate, barred), without)
         kept = [effect for effect in selected.best.chosen if effect.candidate not in barred]
         again = chosen(selected.rows, selected.weights, selected.block, space, (selected.best, kept), selected)
@@ -66,6 +66,13 @@ def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
     """Numbers of the names that can't stand."""
     own = {*_impossible(selected), *_between_samples(selected, rate)}
     return frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
+
+
+def _alike(layout: TorqueLayout, wrong: frozenset[int]) -> frozenset[int]:
+    """Powers of the speed that are as wrong as one that is: all above the first, or all below it, at its joint."""
+    curves = {n: each for n, each in enumerate(layout.placed) if each.cause is catalogue.VISCOUS_CURVE}
+    sides = {(curves[n].joints, curves[n].scanned[0][2] > 1) for n in wrong & curves.keys()}
+    return frozenset(n for n, each in curves.items() if (each.joints, each.scanned[0][2] > 1) in sides)
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
