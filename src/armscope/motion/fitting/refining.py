@@ -20,7 +20,7 @@ from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
-from armscope.motion.library.powers import closer
+from armscope.motion.library.powers import closer, opposite
 
 SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
 """Causes whose law holds a number that is fitted by its slope."""
@@ -91,7 +91,8 @@ def _closer_powers(selected: SelectedCauses, number: int) -> dict[int, PlacedCau
         for n, each in enumerate(layout.placed)
         if each.cause is catalogue.VISCOUS_CURVE and each.joints == (joint,) and n not in best
     }
-    return closer(layout.placed[number], others, bool(layout.arm.sliding[joint]))
+    drives = selected.coefficients[layout.columns[number][0]] < 0
+    return (opposite if drives else closer)(layout.placed[number], others, bool(layout.arm.sliding[joint]))
 
 
 def is_anywhere(cause: PlacedCause) -> bool:

@@ -54,5 +54,29 @@ def closer(chosen: PlacedCause, others: Mapping[int, PlacedCause], sliding: bool
     if nearest < LIBRARY.close_powers:
         return {}
     below, above = max(b for b in _BOUNDS if b < power), min(b for b in _BOUNDS if b > power)
-    between = np.geomspace(np.sqrt(below * power), np.sqrt(above * power), len(others))
-    return {n: with_power(each, float(p), sliding) for (n, each), p in zip(others.items(), between, strict=True)}
+    return _spread(others, float(np.sqrt(below * power)), float(np.sqrt(above * power)), sliding)
+
+
+def opposite(chosen: PlacedCause, others: Mapping[int, PlacedCause], sliding: bool) -> dict[int, PlacedCause]:
+    """Powers on the other side of the first, for one that was chosen as what drives.
+
+    Friction that grows less than the speed looks like a square below zero, and is no such thing.
+
+    Args:
+        chosen: with its power.
+        others: by their numbers, those that were not chosen at the joint.
+        sliding: whether the joint is prismatic.
+
+    Returns:
+        The others with powers of that side; none where they are there.
+    """
+    above = chosen.scanned[0][2] < 1
+    if all((each.scanned[0][2] > 1) == above for each in others.values()):
+        return {}
+    those = [power for power in LIBRARY.powers if (power > 1) == above]
+    return _spread(others, min(those), max(those), sliding)
+
+
+def _spread(causes: Mapping[int, PlacedCause], least: float, most: float, sliding: bool) -> dict[int, PlacedCause]:
+    powers = np.geomspace(least, most, len(causes))
+    return {n: with_power(each, float(p), sliding) for (n, each), p in zip(causes.items(), powers, strict=True)}
