@@ -29,7 +29,6 @@ from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
-from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
     Fold,
@@ -54,8 +53,9 @@ from armscope.motion.summary.judgement import (
     masses_lead,
     unexplained,
 )
-from armscope.motion.summary.lasting import lasting_torques, told_of_lasting
+from armscope.motion.summary.lasting import told_of_lasting
 from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.one_clock import as_one, joints_in_motion, told_of_one_clock
@@ -251,7 +251,7 @@ def _judged(
     found = [cause for _, cause in numbered]
     order = [number for number, _ in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
-    lasting = (*lasting_torques(selected), *friction_by_run(selected))
+    lasting = left_over(selected)
     left = unexplained(found, lasting)
     sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
     off = max(sizes["masses"], sizes["link masses"])

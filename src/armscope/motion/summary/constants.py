@@ -140,8 +140,28 @@ class LastingRules(Constants):
     )
 
 
+@dataclass(frozen=True)
+class DifferingRules(Constants):
+    """When runs are told to differ."""
+
+    clear: float = constant(
+        1.0,
+        "RMS of what a joint leaves about its runs' own lines, by which a run must read otherwise",
+        "judgement: nobody overlooks it in a plot; without a difference up to 0.4 were seen",
+    )
+    alike: float = constant(
+        2.0, "of what one reason leaves, up to which another is named beside it", "judgement: torque of one sign"
+    )
+    widths: float = constant(5.0, "standard errors of that, too", "convention: all joints and runs are looked at")
+    knots: int = constant(8, "of what is slow in a run", "judgement: a jump or a drift")
+    slow: float = constant(
+        0.75, "of the power that a run leaves, that must be slow", "judgement: noise is faster, friction, too"
+    )
+
+
 PLAUSIBLE = PlausibleRules()
 NAMING = NamingRules()
 LASTING = LastingRules()
+DIFFERING = DifferingRules()
 INTERVALS = IntervalRules()
 HELD_OUT = HeldOutRules()

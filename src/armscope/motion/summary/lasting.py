@@ -109,8 +109,8 @@ def _maps(selected: SelectedCauses, joint: int, which: Indices) -> Iterator[Map]
     rows, side = selected.rows, np.sign(selected.rows.dq[which, joint])[:, None]
     drivers = _drivers(selected, joint, which)
     for (name, k), values in drivers.items():
-        hats = _hats(values, LASTING.knots)
-        yield _in_words((name, k), ("direction", joint)), np.hstack([hats, side * hats])
+        curve = hats(values, LASTING.knots)
+        yield _in_words((name, k), ("direction", joint)), np.hstack([curve, side * curve])
     for one, more in (("angle", ("torque", "angle")), ("speed", ("acceleration", "angle", "speed"))):
         for driver, values in drivers.items():
             if driver != (one, joint) and driver[0] in more:
@@ -119,7 +119,7 @@ def _maps(selected: SelectedCauses, joint: int, which: Indices) -> Iterator[Map]
         since = rows.time.copy()
         for run in np.unique(rows.run):
             since[rows.run == run] -= since[rows.run == run].min()
-        yield "time in each run", _hats(since[which], LASTING.knots_of_time)
+        yield "time in each run", hats(since[which], LASTING.knots_of_time)
 
 
 def _in_words(one: Driver, other: Driver) -> str:
@@ -155,14 +155,22 @@ def _remembered(rows: MotionRows, torque: Array, which: Indices, joint: int) -> 
         yield seconds, found
 
 
-def _hats(values: Array, knots: int) -> Array:
-    """(K, knots) hat functions that sum to one, at evenly spaced ranks: as many rows under each."""
+def hats(values: Array, knots: int) -> Array:
+    """Hat functions that sum to one, at evenly spaced ranks: as many rows under each.
+
+    Args:
+        values: (K,).
+        knots: how many.
+
+    Returns:
+        (K, knots).
+    """
     ranks = np.argsort(np.argsort(values)) * ((knots - 1) / max(len(values) - 1, 1))
     return np.asarray(np.maximum(1 - np.abs(ranks[:, None] - np.arange(knots)), 0.0))
 
 
 def _pair(one: Array, other: Array) -> Array:
-    first, second = (_hats(values, LASTING.knots_of_pairs) for values in (one, other))
+    first, second = (hats(values, LASTING.knots_of_pairs) for values in (one, other))
     return np.asarray((first[:, :, None] * second[:, None, :]).reshape(len(one), -1))
 
 

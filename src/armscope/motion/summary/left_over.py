@@ -1,0 +1,24 @@
+"""All torque that lasts and has no law here, of each joint what most of it is."""
+
+from __future__ import annotations
+
+from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.summary.by_run import friction_by_run
+from armscope.motion.summary.differing_runs import differing_runs
+from armscope.motion.summary.lasting import LastingTorque, lasting_torques
+
+
+def left_over(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
+    """What repeats on other motion, and what differs from run to run; first where most of a joint's torque is such.
+
+    Args:
+        selected: the selection.
+
+    Returns:
+        At most one of each joint.
+    """
+    of_joint: dict[int, LastingTorque] = {}
+    for each in (*lasting_torques(selected), *friction_by_run(selected), *differing_runs(selected)):
+        if each.joint not in of_joint or each.rms > of_joint[each.joint].rms:
+            of_joint[each.joint] = each
+    return tuple(sorted(of_joint.values(), key=lambda each: -each.of_torque))
