@@ -102,11 +102,11 @@ class LibraryRules(Constants):
     )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
     powers: tuple[float, ...] = constant(
-        (1 / 3, 1 / 2, 2 / 3, 4 / 3, 3 / 2, 2.0, 5 / 2, 3.0),
+        (1 / 3, 1 / 2, 2 / 3, 3 / 2, 2.0, 3.0),
         "of speed to which friction may grow",
         "judgement: grease that thins as it is sheared, below 1; oil that is churned, a square",
     )
-    close_powers: float = constant(0.1, "of a power, to the next, which no motion tells apart", "judgement: a trace")
+    close_powers: float = constant(0.12, "of a power, to the next, which no motion tells apart", "judgement: a trace")
     usual_speeds: tuple[float, ...] = constant(
         (5, 20, 35, 50, 65, 80, 95), "at which a power is told from viscous friction", "judgement: all of it", unit="%"
     )

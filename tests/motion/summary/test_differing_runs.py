@@ -32,12 +32,12 @@ def diagnosed(joint: int, reading: Reading, runs: int = 3) -> MotionDiagnosis:
     return diagnose_motion(robot(), moved(robot(), 3, in_runs(joint, reading), runs=runs), MotionSettings(cutoff=10.0))
 
 
-ZERO, GAIN = "a sensor or drive set to zero anew", "another drive gain"
+ZERO, GAIN = "a zero set anew", "another drive gain or other friction"
 CASES: dict[str, tuple[int, Reading, list[str]]] = {
     "zero": (
         2,
         lambda run, at, torque: np.full_like(at, (0.0, 4.0, -3.0)[run]),
-        ["4.0 N m higher in run path 2", "3.0 N m lower in run path 3", f"({ZERO} does so)"],
+        ["4.0 N m higher in run path 2", "3.0 N m lower in run path 3", f"(as by {ZERO})"],
     ),
     "gain": (
         0,
@@ -47,7 +47,7 @@ CASES: dict[str, tuple[int, Reading, list[str]]] = {
     "gain of a torque of one sign": (
         1,
         lambda run, at, torque: (0.0, 0.1, -0.08)[run] * torque,
-        ["in run path 2", "in run path 3", f"{ZERO} or {GAIN}"],
+        ["in run path 2", "in run path 3", f"(as by {ZERO}, {GAIN})"],
     ),
     "jump": (2, lambda run, at, torque: 4.0 * ((run == 1) & (at > 0.5)), ["time in run path 2"]),
 }

@@ -21,7 +21,7 @@ from armscope.motion.summary.constants import DIFFERING, LASTING
 from armscope.motion.summary.lasting import LastingTorque, hats
 from armscope.verdict.wording import enumerated
 
-_REASONS = ("a sensor or drive set to zero anew", "another drive gain")
+_REASONS = (("a zero set anew",), ("another drive gain", "other friction"))
 
 
 def differing_runs(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
@@ -105,9 +105,9 @@ class _Runs:
         )
         told = [f"{rounded(factor * abs(by))}{unit} {sides[int(by < 0)]}" for by in more]
         where = enumerated([f"{told[n]} in {self.names[n]}" for n in np.flatnonzero(clear)], "and")
-        why = enumerated(list(_REASONS) if alike else [_REASONS[int(not by_zero)]], "or")
+        why = enumerated([*_REASONS[0], *_REASONS[1]] if alike else list(_REASONS[int(not by_zero)]), "or")
         power = float(np.mean((more[self.of_run] * follows) ** 2))
-        return _Difference(f"run: it reads {where}, against their median ({why} does so)", power)
+        return _Difference(f"run: it reads {where}, against their median (as by {why})", power)
 
     def _over_time(self, left: Array) -> list[_Difference]:
         """Runs most of whose own residual is slow."""
