@@ -65,9 +65,12 @@ fuzz: .venv/installed-test
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS)
 	$(BIN)/python -m tests.fuzz --files 3000 --seconds 1e6
 
+# a pip of its own: older ones, which come with older pythons, hold every file in the index against a thousand tags, which is
+# half of the time that an installation takes
 .venv/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "armscope needs python 3.11 or newer: make PYTHON=/path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv .venv
+	$(BIN)/$(PIP_INSTALL) --require-hashes -r requirements-pip.lock
 
 # what is installed must be, byte by byte, what was pinned (tools/lock.py), wherever it comes from
 PIP_INSTALL := pip install --quiet --disable-pip-version-check

@@ -87,7 +87,7 @@ def test_a_planted_effect_is_found_and_nothing_else(name: str, key: tuple[str, s
 
 
 def test_the_size_of_what_was_planted_is_inside_its_interval() -> None:
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [4e-7]}, 120, 0.02, seed=5)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [4e-7]}, 120, 0.02, seed=5)
     (found,) = diagnose(arm, table, QUICK).effects
     (compliance,) = found.parameters
     low, high = compliance.interval
@@ -106,7 +106,7 @@ def test_a_clean_arm_is_called_clean(seed: int) -> None:
 
 
 def test_bad_shots_are_listed_and_mislead_nobody() -> None:
-    arm, table = planted("six-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
+    arm, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
     bad = [4, 50, 77]
     table.positions[bad] += np.array([3e-3, -4e-3, 2e-3])
     verdict = diagnose(arm, table, QUICK)
@@ -115,7 +115,7 @@ def test_bad_shots_are_listed_and_mislead_nobody() -> None:
 
 
 def test_what_no_effect_explains_is_located_described_and_not_misnamed() -> None:
-    arm, table = planted("six-axis", {}, 150, 0.02, seed=12)
+    arm, table = planted("four-axis", {}, 150, 0.02, seed=12)
     angle = table.motor_angles[:, 1]
     bump = 6e-4 * np.exp(-0.5 * ((angle - 0.2) / 0.12) ** 2)
     shifted = table.motor_angles.copy()
@@ -132,7 +132,7 @@ def test_what_no_effect_explains_is_located_described_and_not_misnamed() -> None
 
 
 def test_play_without_a_record_of_the_side_is_located_and_not_explained_by_chance() -> None:
-    arm, table = planted("six-axis", {("backlash", "joint 2"): [6e-4]}, 120, 0.02, seed=30)
+    arm, table = planted("four-axis", {("backlash", "joint 2"): [6e-4]}, 120, 0.02, seed=30)
     verdict = diagnose(arm, replace(table, approach=None), QUICK)
     assert names(verdict) == {("unknown", "joint 2")}
     assert verdict.effects[0].driver == "nothing in the table"
@@ -168,7 +168,7 @@ def test_two_effects_that_look_alike_are_both_named() -> None:
 
 def test_the_same_seed_gives_the_same_verdict_and_files_follow_the_contract(tmp_path: Path) -> None:
     wanted = {("joint_compliance", "joint 2"): [4e-7], ("joint_offset", "joint 3"): [3e-4]}
-    arm, table = planted("six-axis", wanted, 100, 0.02, seed=50)
+    arm, table = planted("four-axis", wanted, 100, 0.02, seed=50)
     settings = Settings(seed=3, resamples=2)
     heard: list[float] = []
     first = diagnose(arm, table, settings, lambda text, share: heard.append(share))

@@ -50,7 +50,7 @@ def test_drives_are_named_in_an_arm_that_is_elastic_everywhere(seed: int) -> Non
 
 
 def test_nothing_gives_way_against_its_load() -> None:
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [-4e-7]}, 120, 0.02, seed=5)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [-4e-7]}, 120, 0.02, seed=5)
     verdict = diagnose(arm, table, QUICK)
     assert verdict.mismatch
     for effect in verdict.effects:
@@ -107,7 +107,7 @@ def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
 @pytest.mark.parametrize(("uneven", "told"), [(0.2, True), (1.0, False)])
 def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: float, told: bool) -> None:
     """A gap of 1 mrad, and a part of it that changes with the angle; where that is all, there is no gap."""
-    arm, table = planted("six-axis", {}, 150, 0.03, seed=6)
+    arm, table = planted("four-axis", {}, 150, 0.03, seed=6)
     side, angle = side_of_approach(Scene(arm, table), 2), table.motor_angles[:, 1]
     turn = -0.5e-3 * side * ((1.0 if told else 0.0) + uneven * np.sin(4 * angle + 0.5))
     moved = joint_jacobian(chain(arm, table.motor_angles))[:, :, 1] * turn[:, None]

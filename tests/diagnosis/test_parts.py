@@ -211,7 +211,7 @@ def test_the_atlas_shows_links_and_what_is_no_joint(
     ],
 )
 def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> None:
-    arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
+    arm, table = planted("four-axis", {}, 120, 0.02, seed=14)
     names = np.arange(1, 121) if ids != "of a list of poses in another order" else (np.arange(120) * 7) % 120 + 1
     text = np.char.add("pose " if ids == "text" else "", names.astype(str))
     table = replace(table, time=None, id=text, number=np.empty(0))
@@ -225,7 +225,7 @@ def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> 
 
 
 def test_a_faint_jump_has_a_wide_interval() -> None:
-    arm, table = planted("six-axis", {}, 120, 0.02, seed=14)
+    arm, table = planted("four-axis", {}, 120, 0.02, seed=14)
     spreads = []
     for size in (1.0, 0.12):  # a smaller one might be the set-up's wander as well
         moved = table.positions.copy()
@@ -238,7 +238,7 @@ def test_a_faint_jump_has_a_wide_interval() -> None:
 
 
 def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.MonkeyPatch) -> None:
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [5e-7]}, 400, 0.02, seed=15)
     monkeypatch.setattr(loads, "PLAUSIBLE", replace(loads.PLAUSIBLE, weighed_share=1e-3))
     monkeypatch.setattr(selection, "LOOP", replace(selection.LOOP, sample_rows=120))
     verdict = diagnose(arm, table, QUICK)
@@ -254,7 +254,7 @@ def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.Monk
 
 
 def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = replace(one_run(arm, 90, 16), run=np.repeat(["1", "2", "3"], 30))
     same = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
     (found,) = diagnose(arm, same, QUICK).effects
@@ -268,7 +268,7 @@ def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> No
 
 
 def test_what_carries_over_between_payloads_and_halves_of_the_workspace_is_said() -> None:
-    arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
+    arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
     table = replace(table, payload=np.repeat([0.0, 4.0, 8.0], 50))
     table = recorded(arm, table, {("joint_compliance", "joint 2"): [5e-7]}, 0.02, seed=17)
     (found,) = diagnose(arm, table, QUICK).effects

@@ -50,7 +50,7 @@ def test_a_drift_with_pauses_is_one_drift_where_the_time_is_not_told(pauses, see
 
 
 def test_a_drift_without_pauses_has_none():
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     told = recorded(arm, timed(arm, {}, 5), {("base_drift", "base"): DRIFT}, 0.02, 5)
     verdict = diagnose(arm, replace(told, time=None), QUICK)
     assert [effect.effect for effect in verdict.effects] == ["base_drift"]
@@ -60,7 +60,7 @@ def test_a_drift_without_pauses_has_none():
 @pytest.mark.parametrize("way", [pytest.param([-1] * 6, marks=pytest.mark.long), [1, 2, -2, 1, 1, -1]])
 def test_a_jump_that_goes_another_way_than_the_drift_stays_a_jump(way):
     """Back where the drift came from, or aside: no pause does that."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     told = recorded(arm, timed(arm, {}, 6), {("base_drift", "base"): DRIFT}, 0.02, 6)
     posture, jump = Scene(arm, told).posture(), np.multiply(way, DRIFT)
     moved = sum(v * posture.column(term) for v, term in zip(jump, base_shift(told, 70, 1).terms, strict=True))

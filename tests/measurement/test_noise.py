@@ -70,7 +70,7 @@ def four_reflectors(arm: Arm, of_pose: float, of_reading: float, seed: int) -> R
 
 @pytest.mark.parametrize("seed", seeds(5, 6, 7))
 def test_reflectors_seen_at_one_pose_are_no_evidence_for_names(seed: int) -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     verdict = diagnose(arm, four_reflectors(arm, 0.05, 0.01, seed), QUICK)
     assert verdict.effects == ()
     assert verdict.noise_mm == pytest.approx(np.hypot(0.05, 0.01), rel=0.2)
@@ -78,7 +78,7 @@ def test_reflectors_seen_at_one_pose_are_no_evidence_for_names(seed: int) -> Non
 
 def test_poses_visited_often_are_no_evidence_for_names() -> None:
     """Forty poses, each with an error of its own that no physics explains, visited 25 times each."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     rng = np.random.default_rng(3)
     table = recorded(arm, one_run(arm, 40, 5), {}, 0.05, seed=6).rows(np.tile(np.arange(40), 25))
     table = replace(
@@ -94,7 +94,7 @@ def test_poses_visited_often_are_no_evidence_for_names() -> None:
 
 def tracked(seed: int, near: float, slope: float, wanted: dict[tuple[str, str], list[float]]) -> Recordings:
     """A table whose instrument stands metres away; noise near^2 + (slope d)^2, mm and mm/m."""
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, 300, seed), wanted, 0.0, seed=seed + 1)
     moved = table.positions + np.array([2.6, 1.4, 0.3])
     size = 1e-3 * np.hypot(near, slope * np.linalg.norm(moved, axis=1))
@@ -107,7 +107,7 @@ STIFFNESS = {("joint_compliance", "joint 2"): [2e-7]}
 
 def test_noise_that_grows_with_distance_is_found_and_its_rows_count_less() -> None:
     table = tracked(11, 0.004, 0.02, STIFFNESS)
-    verdict = diagnose(arm_named("six-axis"), table, QUICK)
+    verdict = diagnose(arm_named("four-axis"), table, QUICK)
     (told,) = [notice.text for notice in verdict.notices if notice.kind == "noise by distance"]
     away = np.linalg.norm(table.positions, axis=1)
     assert f"at {away.max():.1f} m" in told
@@ -131,7 +131,7 @@ def test_constant_noise_stays_silent(seed: int) -> None:
     away = rng.uniform(1.5, 7.0, 2000)
     assert growth(0.03 * rng.normal(size=(2000, 3)), away, np.ones(2000, dtype=bool)) is None
     if seed == 0:
-        verdict = diagnose(arm_named("six-axis"), tracked(21, 0.05, 0.0, STIFFNESS), QUICK)
+        verdict = diagnose(arm_named("four-axis"), tracked(21, 0.05, 0.0, STIFFNESS), QUICK)
         assert all(notice.kind != "noise by distance" for notice in verdict.notices)
 
 
@@ -151,7 +151,7 @@ def test_standard_errors_are_right_where_noise_grows() -> None:
     """Errors over worlds in units of their standard errors: their mean square is that of chi2, 99.8 % of the time."""
     squares = []
     for seed in range(100, 108):
-        verdict = diagnose(arm_named("six-axis"), tracked(seed, 0.004, 0.02, STIFFNESS), QUICK)
+        verdict = diagnose(arm_named("four-axis"), tracked(seed, 0.004, 0.02, STIFFNESS), QUICK)
         (found,) = [effect for effect in verdict.effects if effect.effect == "joint_compliance"]
         squares.append(((found.parameters[0].value - 2e-7) / found.parameters[0].stderr) ** 2)
     low, high = chi2.ppf([0.001, 0.999], len(squares))
@@ -159,7 +159,7 @@ def test_standard_errors_are_right_where_noise_grows() -> None:
 
 
 def test_no_instrument_stands_within_the_arms_reach() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     far = tracked(11, 0.004, 0.02, {})
     assert distances(fit_frames(arm, far), far) is not None
     near = replace(far, positions=far.positions - np.array([2.6, 1.4, 0.3]))

@@ -57,7 +57,7 @@ def path(rng: np.random.Generator, joints: int, seconds: float, rate: float) -> 
 
 
 def table(
-    arm: MovingArm, seed: int, plant: Plant | None = None, runs: int = 2, noise: float = 0.02, seconds: float = 15.0
+    arm: MovingArm, seed: int, plant: Plant | None = None, runs: int = 2, noise: float = 0.02, seconds: float = 10.0
 ) -> pd.DataFrame:
     """motions.csv of an arm with ordinary friction and rotors, and what is planted."""
     rng, pieces = np.random.default_rng(seed), []
@@ -108,7 +108,7 @@ def behind_its_drive(arm: MovingArm, joint: int, compliance: float, seed: int = 
     rng, pieces, n = np.random.default_rng(seed), [], arm.n_motors
     data = arm.model.createData()
     for run in range(2):
-        time, q, dq, ddq = path(rng, n, 15.0, 200.0)
+        time, q, dq, ddq = path(rng, n, 10.0, 200.0)
         rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
         lag = make_interp_spline(time, compliance * rigid[:, joint], k=5)
         for order, values in enumerate((q, dq, ddq)):

@@ -14,7 +14,7 @@ from tests.motion.moving import moved, robot
 
 def cut_off(seed: int, share: float) -> Motions:
     """The torque of joint 2 beyond some quantiles is not recorded."""
-    good = moved(robot(), seed)
+    good = moved(robot(), seed, seconds=15.0)
     effort = good.effort.copy()
     effort[:, 1] = np.clip(effort[:, 1], *np.quantile(effort[:, 1], [share, 1 - share]))
     return replace(good, effort=effort)

@@ -25,7 +25,7 @@ LOAD = {"mass_kg": 1.5, "com_mm": [0, 0, 0]}
 @pytest.fixture(scope="module")
 def found() -> MotionDiagnosis:
     """An arm with a payload that nobody stated."""
-    return diagnose_motion(robot(), moved(robot(tool_load=LOAD), 3), MotionSettings(cutoff=10.0))
+    return diagnose_motion(robot(), moved(robot(tool_load=LOAD), 3, seconds=15.0), MotionSettings(cutoff=10.0))
 
 
 @pytest.fixture(scope="module")

@@ -71,7 +71,7 @@ def test_time_that_goes_back_or_stands_in_milliseconds_is_refused() -> None:
 
 
 def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> None:
-    motions = moved(robot(), 1, runs=2)
+    motions = moved(robot(), 1, runs=2, seconds=15.0)
     kept = np.r_[0:1000, 1100:3000, 3000:6000:2]  # a hole in path 1, half the rate in path 2
     found = list(stretches(motions.rows(kept)))
     assert [stretch.run for stretch in found] == ["path 1", "path 1", "path 2"]
@@ -82,14 +82,14 @@ def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> Non
     "kept", [np.r_[0:3000, 3000:6000:2], pytest.param(np.r_[0:6000, 6000:9000:2], marks=pytest.mark.long)]
 )
 def test_an_arm_whose_runs_have_other_rates_has_nothing_missing(kept: np.ndarray) -> None:
-    motions = moved(robot(), 3, runs=len(kept) // 3000 + 1)
+    motions = moved(robot(), 3, runs=len(kept) // 3000 + 1, seconds=15.0)
     found = diagnose_motion(robot(), motions.rows(kept)).verdict
     assert found.answer == "nothing missing"
     assert not found.effects
 
 
 def test_positions_of_a_slower_run_are_laid_without_corners() -> None:
-    motions = moved(robot(), 3, runs=3, noise=0.0)
+    motions = moved(robot(), 3, runs=3, noise=0.0, seconds=15.0)
     slow = next(each for each in stretches(motions.rows(np.r_[0:6000, 6000:9000:8])) if each.run == "path 3")
     known = motions.q[6000 : 6000 + len(slow)]
     assert np.abs(slow.q - known).max() < 2e-4
@@ -176,7 +176,7 @@ def test_positions_are_smoothed_where_their_own_noise_begins() -> None:
 
 
 def test_correlated_residuals_count_as_fewer_rows() -> None:
-    arm, motions = robot(), moved(robot(), 4)
+    arm, motions = robot(), moved(robot(), 4, seconds=15.0)
     rows = build_rows(
         TorqueLayout(arm, (), False), list(stretches(motions)), preparation(200.0, 10.0, "test"),
         stated_model(arm),

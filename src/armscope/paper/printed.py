@@ -96,6 +96,7 @@ def _equations() -> dict[str, dict[str, dict[str, float]]]:
     return content
 
 
+@cache
 def _equation_texts() -> dict[str, dict[str, dict[str, str]]]:
     text: dict[str, Any] = yaml.load(_data("equations.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
     return text

@@ -50,7 +50,7 @@ def test_each_run_is_low_passed_where_its_own_motion_ends(monkeypatch: pytest.Mo
 
 def test_positions_noise_costs_little_beside_the_torques_own(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(moving, "path", faster(3))
-    recorded, rng = table(robot(), 3, noise=NOISE), np.random.default_rng(1)
+    recorded, rng = table(robot(), 3, noise=NOISE, seconds=15.0), np.random.default_rng(1)
     for j in range(3):
         recorded[f"q{j + 1}_rad"] += 1e-4 * rng.normal(size=len(recorded))
     found = diagnose_motion(robot(), as_motions(recorded, "motions.csv", 3))

@@ -43,7 +43,7 @@ def test_a_spring_behind_a_wrong_gain_has_its_own_stiffness() -> None:
     stated = [{"rotor_inertia_kg_m2": r, "coulomb_nm": c, "viscous_nm_s_rad": v}
               for r, c, v in zip(ROTOR, COULOMB, VISCOUS, strict=True)]  # fmt: skip
     arm = robot(drives=stated)
-    found = diagnose_motion(arm, moved(arm, 3, sprung_and_misread), MotionSettings(cutoff=10.0)).verdict
+    found = diagnose_motion(arm, moved(arm, 3, sprung_and_misread, seconds=15.0), MotionSettings(cutoff=10.0)).verdict
     causes = {(each.effect, each.location): each.parameters[0] for each in found.effects}
     assert set(causes) == {("gravity_balance", "joint 2"), ("motor_constant", "joint 2")}
     assert causes["motor_constant", "joint 2"].value == pytest.approx(GAIN, abs=0.01)

@@ -72,7 +72,7 @@ def test_a_load_off_the_flange_is_one_cause(seed: int) -> None:
     def loaded(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         return np.asarray(arm.torques(q, dq, ddq, inertial) - rigid)
 
-    motions = moved(arm, seed, loaded, noise=0.01)
+    motions = moved(arm, seed, loaded, noise=0.01, seconds=15.0)
     (cause,) = diagnose_motion(arm, motions, MotionSettings(cutoff=10.0)).verdict.effects
     assert (cause.effect, cause.location) == ("payload_error", "payload")
     found = {each.name: each for each in cause.parameters}

@@ -44,7 +44,7 @@ def loaded(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
 def found() -> MotionDiagnosis:
     """A diagnosis with a run that took no part."""
     arm = robot()
-    return diagnose_motion(arm, moved(arm, 4, loaded), MotionSettings(cutoff=10.0, held_out=("path 2",)))
+    return diagnose_motion(arm, moved(arm, 4, loaded, seconds=15.0), MotionSettings(cutoff=10.0, held_out=("path 2",)))
 
 
 def every_cause() -> MotionModel:
@@ -67,7 +67,7 @@ def every_cause() -> MotionModel:
 
 def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tmp_path: Path) -> None:
     save_motion_model(tmp_path / "model.yaml", found.model)
-    motions = moved(robot(), 4, loaded)
+    motions = moved(robot(), 4, loaded, seconds=15.0)
     held_out = motions.rows(motions.run == "path 2")
     predicted, notes = torque_of_rows(load_motion_model(tmp_path / "model.yaml"), held_out)
     how = found.how

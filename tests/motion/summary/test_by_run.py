@@ -29,7 +29,7 @@ def warming(shares: Iterator[float], dry: bool = False) -> Plant:
 
 
 def diagnosed(plant: Plant | None, temperature: bool = False) -> MotionDiagnosis:
-    motions = moved(robot(), 3, plant, runs=3)
+    motions = moved(robot(), 3, plant, runs=3, seconds=15.0)
     if temperature:
         run = np.unique(motions.run, return_inverse=True)[1].astype(float)
         motions = replace(motions, temperature=np.tile(20.0 + 10.0 * run[:, None], motions.n_motors))

@@ -69,7 +69,7 @@ def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
 def test_a_fold_names_nothing_that_is_there_in_its_own_run_only() -> None:
     """On a single run a load "in this run" is the load in all runs; it foretold nothing of the other."""
     arm = robot()
-    found = diagnose_motion(arm, moved(robot(tool_load=LOAD), 3), MotionSettings(cutoff=10.0))
+    found = diagnose_motion(arm, moved(robot(tool_load=LOAD), 3, seconds=15.0), MotionSettings(cutoff=10.0))
     placed = found.selected.rows.layout.placed
     assert [cause.effect for cause in found.verdict.effects] == ["payload_error"]
     for fold in folds(found.selected):

@@ -29,7 +29,7 @@ def diagnosed(late_s: float) -> MotionDiagnosis:
         extra[:, JOINT] = COULOMB[JOINT] * (late - now)
         return extra
 
-    return diagnose_motion(arm, moved(arm, 3, clinging), MotionSettings(cutoff=10.0))
+    return diagnose_motion(arm, moved(arm, 3, clinging, seconds=15.0), MotionSettings(cutoff=10.0))
 
 
 def notices(late_s: float) -> list[Notice]:

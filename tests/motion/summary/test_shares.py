@@ -50,7 +50,7 @@ def explained_by(selected: SelectedCauses, without: Array) -> float:
 @pytest.mark.parametrize("share", [1.0, pytest.param(2.0, marks=pytest.mark.long)])
 def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
     """A small cause with a name is not left alone beside an error that falls for another reason."""
-    found = diagnose_motion(robot(), moved(robot(**off(share)), 1, pulled, noise=0.005))
+    found = diagnose_motion(robot(), moved(robot(**off(share)), 1, pulled, noise=0.005, seconds=15.0))
     selected = found.selected
     explained, added = shares_of(selected)
     assert {each.effect for each in found.verdict.effects} == {"torque_offset"}
