@@ -110,7 +110,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
-        nothing = _no_load(selected, number) or _pulls_and_pushes(selected, number)
+        nothing = _no_load(selected, number) or _no_link(selected, number) or _pulls_and_pushes(selected, number)
         if below or nothing or (is_anywhere(placed) and _no_body(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
@@ -146,6 +146,26 @@ def _no_body(selected: SelectedCauses, number: int) -> bool:
     mass = float(selected.coefficients[columns[0]])
     error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
     return (not stated and NAMING.determined * abs(mass) < INTERVAL * error) or sits_nowhere(selected, number)
+
+
+def _no_link(selected: SelectedCauses, number: int) -> bool:
+    """Whether a link, or the last one with its load, would weigh less than nothing, or be centred off the arm."""
+    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
+    if placed.cause not in (catalogue.LINK_MASS, catalogue.LINK_CENTRE, catalogue.PAYLOAD):
+        return False
+    link = layout.arm.n_links if placed.cause is catalogue.PAYLOAD else int(placed.location.split()[1])
+    mass, *moments = layout.arm.inertial[10 * link - 10 : 10 * link - 6]
+    found, columns = selected.coefficients[layout.columns[number]], layout.columns[number][:1]
+    error = float(np.sqrt(selected.best.variances(columns)[0])) / selected.problem.scale[columns[0]]
+    if placed.cause is catalogue.LINK_CENTRE:
+        axes = ["xyz".index(name[1]) for name, _ in placed.parameters]
+        centre = np.array(moments)
+        centre[axes] += found
+        return bool(np.linalg.norm(centre) > layout.reach * mass)
+    if placed.parameters[0][0] != "mass":
+        return False
+    there = mass + (carried_in(selected, placed)[1] if placed.cause is catalogue.PAYLOAD else 0.0)
+    return bool(found[0] < -there - CONSISTENCY.below * error)
 
 
 def _no_load(selected: SelectedCauses, number: int) -> bool:
