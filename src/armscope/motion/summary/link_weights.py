@@ -21,6 +21,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.summary.doubts import determined
 from armscope.motion.summary.intervals import Sureness, sureness
 from armscope.motion.summary.judgement import cause_parameters
+from armscope.motion.summary.no_bodies import no_link
 from armscope.motion.summary.told_gains import with_gains_that_stand_out
 from armscope.motion.summary.unnamed_masses import odds_of_weight
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -83,13 +84,13 @@ def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[
 
     Returns:
         It, and how far it can be trusted. A link whose number is not determined, by gains that nobody has measured
-        say, has no name.
+        say, or that would weigh less than nothing, has no name.
     """
     selected = with_gains_that_stand_out(selected)
     named = with_links_that_weigh(selected)
     sure = sureness(named, carried)
     added = named.best.candidates - selected.best.candidates
-    loose = [n for n in added if not determined(cause_parameters(named, n, sure.factor))]
+    loose = [n for n in added if no_link(named, n) or not determined(cause_parameters(named, n, sure.factor))]
     if not loose:
         return named, sure
     kept = tuple(effect for effect in named.best.chosen if effect.candidate not in loose)

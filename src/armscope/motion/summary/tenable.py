@@ -18,21 +18,21 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import agreement
-from armscope.motion.fitting.refining import carried_in, is_anywhere, sits_nowhere
+from armscope.motion.fitting.refining import is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, chosen, settled
 from armscope.motion.fitting.space import build_space, without_backgrounds
 from armscope.motion.library import catalogue
-from armscope.motion.library.change_constants import CHANGE
-from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
+from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.motion.library.layout import OWN, TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
-from armscope.motion.summary.constants import NAMING, PLAUSIBLE
+from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
+from armscope.motion.summary.no_bodies import no_link, no_load, no_place
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
@@ -110,8 +110,8 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             yield number
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
-        nothing = _no_load(selected, number) or _no_link(selected, number) or _pulls_and_pushes(selected, number)
-        if below or nothing or (is_anywhere(placed) and _no_body(selected, number)):
+        nothing = no_load(selected, number) or no_link(selected, number) or _pulls_and_pushes(selected, number)
+        if below or nothing or (is_anywhere(placed) and no_place(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
             yield number  # no link follows a motor that moves to and fro faster than it swings itself
@@ -132,58 +132,6 @@ def _between_samples(selected: SelectedCauses, rate: float) -> Iterator[int]:
         passed = np.abs(np.concatenate(slow)) / rate
         if len(passed) and speed < PLAUSIBLE.samples_near_rest * np.median(passed):
             yield number
-
-
-def _no_body(selected: SelectedCauses, number: int) -> bool:
-    """Whether a load that may sit anywhere has no mass, or sits nowhere.
-
-    Where none is stated and its mass is not determined, what sits elsewhere is nothing.
-    """
-    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
-    if placed.parameters[0][0] != "mass":
-        return True
-    columns, (_, stated) = layout.columns[number], carried_in(selected, placed)
-    mass = float(selected.coefficients[columns[0]])
-    error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
-    return (not stated and NAMING.determined * abs(mass) < INTERVAL * error) or sits_nowhere(selected, number)
-
-
-def _no_link(selected: SelectedCauses, number: int) -> bool:
-    """Whether a link, or the last one with its load, would weigh less than nothing, or be centred off the arm."""
-    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
-    if placed.cause not in (catalogue.LINK_MASS, catalogue.LINK_CENTRE, catalogue.PAYLOAD):
-        return False
-    link = layout.arm.n_links if placed.cause is catalogue.PAYLOAD else int(placed.location.split()[1])
-    mass, *moments = layout.arm.inertial[10 * link - 10 : 10 * link - 6]
-    found, columns = selected.coefficients[layout.columns[number]], layout.columns[number][:1]
-    error = float(np.sqrt(selected.best.variances(columns)[0])) / selected.problem.scale[columns[0]]
-    if placed.cause is catalogue.LINK_CENTRE:
-        axes = ["xyz".index(name[1]) for name, _ in placed.parameters]
-        centre = np.array(moments)
-        centre[axes] += found
-        return bool(np.linalg.norm(centre) > layout.reach * mass)
-    if placed.parameters[0][0] != "mass":
-        return False
-    there = mass + (carried_in(selected, placed)[1] if placed.cause is catalogue.PAYLOAD else 0.0)
-    return bool(found[0] < -there - CONSISTENCY.below * error)
-
-
-def _no_load(selected: SelectedCauses, number: int) -> bool:
-    """Whether what is picked up or put down is none: heavier than an arm, beyond its reach, or not determined.
-
-    What is put down was there: stated, or as a part of the last link.
-    """
-    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
-    if placed.cause is not LOAD_CHANGE:
-        return False
-    columns, links = layout.columns[number], layout.arm.inertial[::10]
-    (mass, *moments), kind = selected.coefficients[columns], getattr(placed.columns, "kind", "")
-    stated = placed.columns.numbers[0] if isinstance(placed.columns, Law) and kind == "load for a while" else 0.0
-    error = float(np.sqrt(selected.best.variances(columns[:1])[0])) / selected.problem.scale[columns[0]]
-    if abs(mass) > CHANGE.heaviest_load * links.sum() or NAMING.determined * abs(mass) < INTERVAL * error:
-        return True
-    gone = mass < -(stated + links[-1]) - CONSISTENCY.below * error
-    return bool(gone or np.linalg.norm(moments) > layout.reach * abs(mass))
 
 
 def _pulls_and_pushes(selected: SelectedCauses, number: int) -> bool:

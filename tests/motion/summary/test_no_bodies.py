@@ -1,0 +1,46 @@
+"""Links and loads that weigh less than nothing are no answer; lighter ones are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.verdict import FoundCause
+from tests.motion.moving import ROBOT, Plant, moved, robot
+
+
+def times_its_own(share: float) -> Plant:
+    """What the last link's mass alone asks for, some times."""
+    stated: Any = ROBOT["links"]
+    light = {"mass_kg": 1e-6, "com_mm": [0, 0, 0], "inertia_kg_m2": [1e-9, 1e-9, 1e-9, 0, 0, 0]}
+    without = robot(links=[*stated[:2], light]).model
+    data = without.createData()
+
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        others = np.array([pin.rnea(without, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
+        return share * (rigid - others)
+
+    return plant
+
+
+def masses(share: float) -> list[FoundCause]:
+    found = diagnose_motion(robot(), moved(robot(), 3, times_its_own(share)), MotionSettings(cutoff=10.0)).verdict
+    return [each for each in found.effects if each.parameters[0].name == "mass"]
+
+
+def test_a_link_is_as_light_as_it_can_be() -> None:
+    """Of 4 kg."""
+    told = masses(-0.6)[0]
+    assert told.location == "link 3"
+    assert told.parameters[0].value == pytest.approx(-0.6 * 4, abs=0.2)
+
+
+def test_no_link_or_load_is_told_that_weighs_less_than_nothing() -> None:
+    """A wrong arm's description, or an encoder that counts backwards, asks for such: "10 kg lighter", of 1.4 kg."""
+    for told in masses(-2.0):
+        assert told.parameters[0].value > -4 - 2 * told.parameters[0].stderr
