@@ -1,5 +1,7 @@
 """What speaks against a cause that the evidence asks for, and what leaves it open."""
 
+from dataclasses import replace
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -8,8 +10,9 @@ from armscope.motion.constants import NOISE
 from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.summary import doubts, tenable
+from armscope.motion.summary.doubts import not_told_apart
 from armscope.recordings.motions import as_motions
-from armscope.verdict.effects import Parameter
+from armscope.verdict.effects import Alternative, Parameter
 from tests.motion.moving import behind_its_drive, robot
 
 SOFT = 6e-3
@@ -103,3 +106,11 @@ def test_how_fast_a_joint_moves_is_that_of_its_path(gives_way: MotionDiagnosis) 
     speed = np.sqrt(np.mean(rows.dq[:, 0] ** 2))
     expected = np.sqrt(np.mean(apart**2)) / speed / (2 * np.pi)
     assert doubts.motion_hz(gives_way.selected, 0) == pytest.approx(expected, rel=0.15)
+
+
+def test_a_rival_that_fits_as_well_and_only_pays_for_its_numbers_is_a_doubt() -> None:
+    """A link's mass was named, certain, where its centre lay elsewhere: three numbers cost 8 nats, and fitted alike."""
+    alike = Alternative("link_first_moment", "link 2", "masses", 8.1, "load", 0.4)
+    assert not_told_apart([alike]).startswith("These rows fit link first moment at link 2 as well")
+    told_apart = replace(alike, discriminability_nats=8.1)
+    assert not_told_apart([told_apart]) == not_told_apart([]) == ""

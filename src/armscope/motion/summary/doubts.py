@@ -13,7 +13,8 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.effects import INTERVAL, Parameter
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, Parameter
+from armscope.verdict.wording import effect_in_words, enumerated
 
 
 def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement, parameters: Sequence[Parameter]) -> str:
@@ -42,6 +43,16 @@ def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement, param
     elif not determined(parameters):
         told.append("Its size is not determined: the 95 % interval is nearly as wide. Record other paths.")
     return " ".join([*told, *too_loose(swing_hz(selected, number))])
+
+
+def not_told_apart(alternatives: Sequence[Alternative]) -> str:
+    """What fits as well and is less likely for its number of parameters alone, in a sentence; empty where nothing."""
+    priced = [each for each in alternatives if each.discriminability_nats < each.evidence_gap_nats]
+    alike = [each for each in priced if each.discriminability_nats < INDISTINGUISHABLE_NATS]
+    if not alike:
+        return ""
+    names = enumerated([effect_in_words(each.effect, each.location) for each in alike], "or")
+    return f"These rows fit {names} as well: find out which it is before anything is changed."
 
 
 def may_be_nothing(parameters: Sequence[Parameter]) -> bool:

@@ -17,7 +17,7 @@ from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.constants import HELD_OUT
-from armscope.motion.summary.doubts import doubt_of
+from armscope.motion.summary.doubts import doubt_of, not_told_apart
 from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
@@ -64,6 +64,7 @@ def _found(
     relative = rms / selected.weights.sigma
     joint = int(np.argmax(relative))
     parameters = cause_parameters(selected, number, sure.factor)
+    alternatives = _alternatives(selected, sure, number)
     return FoundCause(
         effect=placed.cause.name,
         location=placed.location,
@@ -77,13 +78,13 @@ def _found(
         joint=f"joint {joint + 1}",
         share=share,
         evidence_nats=float(sure.search.log_odds(selected.best, number)),
-        alternatives=_alternatives(selected, sure, number),
+        alternatives=alternatives,
         carries_over=agreed.words,
         consistent=agreed.consistent,
         physics=placed.cause.physics,
         confirm=placed.cause.confirm,
         cure=cure(placed, parameters, layout.arm),
-        doubt=doubt_of(selected, number, agreed, parameters),
+        doubt=f"{doubt_of(selected, number, agreed, parameters)} {not_told_apart(alternatives)}".strip(),
     )
 
 
