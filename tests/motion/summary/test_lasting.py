@@ -57,7 +57,7 @@ def test_what_is_foretold_of_any_slow_torque_is_not_told(monkeypatch: pytest.Mon
     selected = diagnosed(wandering).selected
     which = np.flatnonzero(selected.weights.row[:, 1] > 0)
     interleaved = dataclasses.replace(selected, block=np.arange(len(selected.rows)) % 2)
-    over_time = lasting._hats(which.astype(np.float64), 5)
+    over_time = lasting.hats(which.astype(np.float64), 5)
     monkeypatch.setattr(lasting, "_maps", lambda *_: iter([("time", over_time)]))
     told = 0
     for seed in range(20):
