@@ -88,7 +88,7 @@ def test_each_cause_has_a_card_with_its_confirmation_and_cure(page: str, found: 
     assert main
     for cause in main:
         assert cause.confirm in page
-        assert cause.cure in page
+        assert cause.cure in page.replace("\u00a0", " ")
     assert page.count('<article class="effect"') == len(main)
 
 

@@ -34,17 +34,17 @@ def by_its_points(fitted: Fitted) -> str:
         return f"{fitted.in_general}: {_slipping(fitted)}"
     sliding = fitted.first.unit == "N"
     unit, torque = unit_of(fitted.driver, sliding), "N" if sliding else "N m"
-    follows = "stated masses' torque" if fitted.driver == "load" else fitted.driver
+    follows = "torque of the stated masses" if fitted.driver == "load" else fitted.driver
     return (
         f"{fitted.in_general}: {CURVES} has it for {fitted.place} over the {follows} ({unit}; torque in {torque}). Add "
-        "it to the joint's torque, straight between its points, and beyond them as at the last."
+        "it to the torque of the joint, straight between its points, and beyond them as at the last."
     )
 
 
 def _slipping(fitted: Fitted) -> str:
     """Prandtl's stops, each with the step that it is taken along by before it slips."""
     of_torque = fitted.driver == PLAY
-    steps = "step of the model's own torque" if of_torque else "step of the position"
+    steps = "step of the torque that the model has" if of_torque else "step of the position"
     low = f", low-passed at {fitted.of_law[0]:.3g} Hz but for its dry friction" if of_torque else ""
     return (
         f"{CURVES} has {len(fitted.parameters)} stops for {fitted.place}. To its torque add the sum of torque × s over "
@@ -58,6 +58,6 @@ def _bent_reading(fitted: Fitted) -> str:
     (usual,) = fitted.of_law
     linear, square, cube = (amount(each, sign=True) for each in fitted.parameters)
     return (
-        f"{fitted.in_general}: to the model's torque T of {fitted.place} add "
+        f"{fitted.in_general}: to the torque T that the model has of {fitted.place} add "
         f"({linear} {square} × |x| {cube} × x²) × T, where x is T / ({usual:.4g} SI)."
     )

@@ -9,8 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
+from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.one_clock import ONE_CLOCK, as_one, of_one_clock
 from armscope.motion.verdict import FoundCause
@@ -64,7 +67,10 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         cure = f"{card.cure} {too}".rstrip()
         tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected))
     held_out = verdict.held_out
+    to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
     return {
+        "to_enter": to_enter,
+        "first": int(to_enter) + bool(apart) + 1,
         "tasks": tasks[:IN_FULL],
         "more": tasks[IN_FULL:],
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
