@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.check.motions import check_moving
+from armscope.core.inputs import InputError
 from armscope.recordings.motions import Motions
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import MovingArm, build_moving_arm
@@ -53,6 +54,20 @@ def said(motions: Motions) -> list[str]:
 
 def test_a_good_table_is_not_accused(good: Motions) -> None:
     assert said(good) == []
+
+
+def test_radians_in_columns_of_degrees_are_told_before_any_zero(good: Motions) -> None:
+    """All angles within six degrees, which a zero a quarter turn off explained well enough to be blamed."""
+    told = said(replace(good, q=np.radians(good.q)))
+    assert told[0].startswith("problem masses explain ")
+    assert "if what is read as degrees is radians" in told[0]
+    assert not [each for each in told if "the stated masses leave" in each]
+
+
+def test_currents_of_unknown_gains_are_refused_as_the_diagnosis_does(good: Motions) -> None:
+    with pytest.raises(InputError, match="gain_nm_per_a"):
+        check_moving(replace(good, kind="current"), wristed())
+    assert check_moving(replace(good, kind="current")), "without an arm nobody asks for them"
 
 
 def test_exchanged_torques_of_joints_that_carry_little_are_told_by_their_friction(good: Motions) -> None:

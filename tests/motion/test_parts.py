@@ -259,6 +259,7 @@ def test_causes_that_make_held_out_motion_worse_are_no_answer() -> None:
     assert headline(found, helps).startswith("Link 4 is 1.00 ± 0.20 kg heavier than stated – 30 %")
     assert headline(found, hardly).startswith("Cannot tell what is missing: nothing that was found helps")
     assert "met to 5.0 % instead of 20 % by these causes; to 30 % where" in headline(found, not_anew)
+    assert HeldOutErrors(0.058, 0.058, 0.058).words().endswith("met to 5.8 % by friction and rotors alone.")
 
 
 def test_tables_that_show_nothing_are_refused_and_doubts_are_told() -> None:

@@ -79,12 +79,20 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
         return
     few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
     stated = explained(few, arm)
-    if stated >= MOTION.explained:
-        return
 
     def better(share: float) -> bool:
         return share > MOTION.explained and MOTION.clearly * (1 - share) < 1 - stated
 
+    if (as_radians := _as_radians(few, arm)) is not None and better(as_radians):
+        yield Suspicion(
+            "problem",
+            f"masses explain {_share(stated)} of the torque, and {_share(as_radians)} if what is read as degrees is "
+            "radians: no joint moves beyond 6.3 degrees",
+            "Call their columns q1_rad ... and dq1_rad_s ....",
+        )
+        return
+    if stated >= MOTION.explained:
+        return
     as_degrees = explained(few.scaled(np.pi / 180, ~arm.sliding), arm)
     if better(as_degrees):
         yield Suspicion(
@@ -104,6 +112,14 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
             f"masses explain {_share(stated)} of the torque, and {_share(best)} with {what} in the order {told}",
             "Number the columns in the order of the arm's joints, from the base.",
         )
+
+
+def _as_radians(few: Samples, arm: MovingArm) -> float | None:
+    """Share that masses explain if degrees are radians; None where a joint that turns goes beyond a turn of these."""
+    turning, unit = ~arm.sliding, 180 / np.pi
+    if not turning.any() or unit * np.abs(few.q[:, turning]).max() > 2 * np.pi:
+        return None
+    return explained(few.scaled(unit, turning), arm)
 
 
 def zeros_elsewhere(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:

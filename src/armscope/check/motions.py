@@ -17,7 +17,7 @@ from armscope.check.motion_readings import Samples, beyond_friction, exchanged, 
 from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
-from armscope.motion.check import channels, doubts_about, refuse_other_joints, too_short
+from armscope.motion.check import channels, doubts_about, refuse_other_joints, refuse_unknown_gains, too_short
 from armscope.motion.samples.timing import gaps, mended_rows
 from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
@@ -53,10 +53,12 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     """Look through a table of motions.
 
     Raises:
-        InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide.
+        InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide,
+            or currents have no gain.
     """
     if arm is not None:
         refuse_other_joints(arm, motions)
+        refuse_unknown_gains(arm, motions)
     motions, turns = counted_on(motions)
     kept, time, notices = mended_rows(motions)
     told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*turns, *notices, *doubts_about(motions)]]

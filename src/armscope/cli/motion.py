@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from armscope.verdict.schema import Answer
 
 Tell = Callable[[str, float], None]
-FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv", "atlas.csv")
+FILES = ("verdict.json", "model.yaml", "corrected.urdf", "mujoco.xml", "parameters.csv", "atlas.csv", "curves.csv")
 """All that is written beside the page."""
 
 

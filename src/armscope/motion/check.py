@@ -33,6 +33,17 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
         InputError: they don't fit the arm, or can't be what their columns say.
     """
     refuse_other_joints(arm, motions)
+    refuse_unknown_gains(arm, motions)
+    _refuse_dead(motions)
+    return doubts_about(motions)
+
+
+def refuse_unknown_gains(arm: MovingArm, motions: Motions) -> None:
+    """Make sure that currents are of motors whose torque per ampere is stated.
+
+    Raises:
+        InputError: one is not.
+    """
     if motions.kind == "current" and np.isnan(arm.gains).any():
         j = int(np.flatnonzero(np.isnan(arm.gains))[0])
         rule = "currents need the torque of each motor per ampere"
@@ -40,8 +51,6 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
             "State `drives: [{gain_nm_per_a: ...}, ...]` in robot.yaml, with `gain_uncertainty` where it is not sure."
         )
         raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
-    _refuse_dead(motions)
-    return doubts_about(motions)
 
 
 def doubts_about(motions: Motions) -> list[Notice]:

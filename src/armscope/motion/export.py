@@ -17,6 +17,8 @@ from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.layout import OWN
+from armscope.motion.library.remedies_of_curves import CURVES
+from armscope.motion.model.curve_table import curve_table
 from armscope.motion.model.file import save_motion_model
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.pipeline import MotionDiagnosis
@@ -37,7 +39,7 @@ WRITTEN = (
 
 
 def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
-    """Write all but the page: verdict.json, model.yaml, atlas.csv, and what `export_motion` writes.
+    """Write all but the page: verdict.json, model.yaml, atlas.csv, curves.csv, and what `export_motion` writes.
 
     Args:
         found: the diagnosis.
@@ -46,6 +48,7 @@ def write_motion(found: MotionDiagnosis, folder: Path | str) -> None:
     write_motion_verdict(found.verdict, folder)
     save_motion_model(Path(folder) / "model.yaml", found.model)
     write_table(Path(folder) / "atlas.csv", atlas_table(found.atlas))
+    write_table(Path(folder) / CURVES, curve_table(found.model))
     export_motion(found.model, found.selected, found.sure.factor, folder)
 
 

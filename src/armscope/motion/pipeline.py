@@ -17,6 +17,7 @@ from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.layout import TorqueLayout
@@ -61,6 +62,7 @@ from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.one_clock import as_one, joints_in_motion, told_of_one_clock
 from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
+from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
@@ -168,10 +170,9 @@ def diagnose_motion(
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
-    notices += [*told, *gaps(motions), *little_excited(selected)]
+    notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout), *told_gains(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients)) if test else None
-    notices += [*level_told(layout), *told_late(selected, sure)]
     verdict, held, entered = _judged(selected, sure, apart, settings)
     twists = judged_twists(selected, seen, train, how)
     verdict = with_links(verdict, [twist.side for twist in twists])
@@ -179,7 +180,7 @@ def diagnose_motion(
         verdict,
         headline=_as_far_as_recorded(verdict, notices),
         preparation=how.words + pauses_in_words(selected.rows.pauses),
-        notices=(*notices, *verdict.notices),
+        notices=(*notices, *told_late(selected, sure), *verdict.notices),
         samples=len(motions),
         runs=runs,
         settings=asdict(settings),
@@ -199,9 +200,9 @@ def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) ->
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
-    """The headline; where nothing is missing, with how coarsely the torque was recorded that says so."""
-    coarse = [notice.text for notice in notices if notice.kind == COARSE]
-    return " ".join([verdict.headline, *(coarse if verdict.answer == "nothing missing" else ())])
+    """The headline; where nothing is missing, with gains that say so, and how coarsely the torque was recorded."""
+    kinds = (COARSE, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
+    return " ".join([verdict.headline, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
 def _carried(motions: Motions) -> dict[str, float]:
@@ -248,13 +249,11 @@ def _judged(
     held_out = replace(measure(held, what), by_run=by_run)
     explained, by_masses = shares_of(selected)
     numbered = found_causes(selected, sure, explained)
-    found = [cause for _, cause in numbered]
-    order = [number for number, _ in numbered]
+    order, found = [number for number, _ in numbered], [cause for _, cause in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = left_over(selected)
     left = unexplained(found, lasting)
-    sizes = {family.name: share for family, share in zip(selected.space.families, _sizes(selected), strict=True)}
-    off = max(sizes["masses"], sizes["link masses"])
+    off = _masses_off(selected)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
@@ -295,6 +294,7 @@ def _that_others_tell(
     return [parts[n] for n in kept], tuple(held[n] for n in kept), names
 
 
-def _sizes(selected: SelectedCauses) -> list[float]:
-    families = zip(selected.space.families, selected.best.background, strict=True)
-    return [float(family.label(size)) for family, size in families]
+def _masses_off(selected: SelectedCauses) -> float:
+    """Share of a link's mass, and so on, within which masses are off without a name."""
+    sizes = zip(selected.space.families, selected.best.background, strict=True)
+    return max(float(family.label(size)) for family, size in sizes if family.name in OF_MASSES)

@@ -12,6 +12,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis
 from armscope.motion.summary.holding_out import HeldOutTorque
+from armscope.motion.summary.told_gains import factors_in_words
 from armscope.motion.verdict import FoundCause, MotionVerdict
 from armscope.robot.dynamics import MovingArm
 
@@ -56,6 +57,12 @@ class MotionSubject:
     def masses_fitted(self) -> bool:
         """Whether inertial parameters of links are part of what was fitted, beside the causes."""
         return bool(len(np.intersect1d(self.found.selected.rows.layout.masses, self.found.selected.best.columns)))
+
+    @property
+    def gains_fitted(self) -> str:
+        """What to do about torque constants that were fitted beside the causes; empty where there are none."""
+        selected = self.found.selected
+        return factors_in_words(selected.coefficients[selected.rows.layout.gains])
 
     @cached_property
     def held(self) -> HeldOutRows:

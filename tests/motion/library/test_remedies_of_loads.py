@@ -86,7 +86,10 @@ def test_a_mass_alone_is_at_the_tool_point_and_one_run_is_named() -> None:
     cure = as_tool_load(Fitted("State it.", (Parameter("mass", "kg", 0.8, 0.01),), stated, run="p2"))
     assert typed_in(cure) == {"mass_kg": 0.8, "com_mm": [0, 10, 80]}
     assert "for run p2 alone" in cure
-    assert "+0.800 ± 0.020 kg at `tool_mm`" in cure
+    assert "(± 0.020 kg), for run" in cure, "its place was not fitted, and has no interval"
+    assert "+0.800 ± 0.020 kg at `tool_mm`. That place was not fitted" in cure
+    unstated = as_tool_load(Fitted("State it.", (Parameter("mass", "kg", 0.8, 0.01),), arm(None, "standard")))
+    assert "at the last frame's origin, `tool_mm` not being stated" in unstated
 
 
 def test_what_this_motion_does_not_tell_is_named_and_what_is_no_load_goes_into_the_link() -> None:
@@ -94,6 +97,7 @@ def test_what_this_motion_does_not_tell_is_named_and_what_is_no_load_goes_into_t
     cure = as_tool_load(Fitted("State it.", numbers(true, stated, "mass mx my"), stated))
     assert "Where it sits along z of the last joint, this motion does not tell." in cure
     assert typed_in(cure)["com_mm"][:2] == pytest.approx([20, -10], abs=0.06)
+    assert ", – mm)" in cure, "no interval of what was not fitted"
     lighter = as_tool_load(Fitted("State it.", numbers(stated, true), stated))
     assert "mass −1.70" in lighter
     assert "corrected.urdf has both" in lighter

@@ -36,13 +36,14 @@ def diagnosed(plant: Plant | None, temperature: bool = False) -> MotionDiagnosis
     return diagnose_motion(robot(), motions, MotionSettings(cutoff=10.0))
 
 
-@pytest.mark.parametrize(("dry", "follows"), [(False, "the speed"), (True, "the direction")])
+@pytest.mark.parametrize(("dry", "follows"), [(False, "speed"), (True, "direction")])
 def test_friction_that_differs_by_run_is_told_at_its_joint(dry: bool, follows: str) -> None:
     verdict = diagnosed(warming(iter([0.6, 0.0, -0.6]), dry)).verdict
     assert verdict.answer == "cannot tell"
     assert verdict.unexplained.location == "joint 2"
     assert verdict.unexplained.driver is not None
     assert verdict.unexplained.driver.startswith(f"{follows}, otherwise in each run")
+    assert f"following the {follows}, otherwise" in verdict.unexplained.description
 
 
 def test_friction_that_is_the_same_in_all_runs_is_not() -> None:

@@ -74,6 +74,7 @@ HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
         (cause("attached_body", TIMES, location="hand"), HAND),
         (cause("attached_body", replace(TIMES, value=-1.5), location="hand"), "1.50 ± 0.20 times what it weighs"),
         (cause("payload_error", HEAVIER, title=IN_RUN), "in run b the arm carries 2.00 ± 0.20 kg more"),
+        (cause("payload_error", HEAVIER), "more than stated, taken to sit at the tool point"),
         (cause("payload_error", MASS, MOMENT), "the load sits elsewhere than stated (its mass as stated ± 0.98 kg)"),
         (cause("unknown", driver="load"), "follows the load by no known law"),
     ],

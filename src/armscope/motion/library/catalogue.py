@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.motion.library import clauses, remedies, remedies_of_laws
+from armscope.motion.library import clauses, remedies, remedies_of_curves, remedies_of_laws
 from armscope.motion.library.causes import Cause
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.remedies_of_loads import as_tool_load
@@ -170,6 +170,7 @@ CABLE = Cause(
     "Turn the joint slowly either way with the cables unplugged and plugged.",
     "Add the curve to the model, or lay the cables otherwise.",
     clause=clauses.at_place("cables or hoses pull at {}"),
+    remedy=remedies_of_curves.by_its_points,
 )
 LINK_MASS = Cause(
     "link_mass",
@@ -244,9 +245,9 @@ COMPLIANCE = Cause(
     clause=clauses.compliance_clause,
     remedy=remedies.lagging,
 )
-WAY, PLAY, SCALE = "way since the last reversal", "torque since its last reversal", clauses.SCALE
+WAY, PLAY, SCALE = remedies_of_curves.WAY, remedies_of_curves.PLAY, clauses.SCALE
 """What laws follow that no cause has: hysteresis of friction, play between motor and sensor, a sensor that bends."""
-UNEVEN = "joint angle and direction"
+UNEVEN = remedies_of_curves.UNEVEN
 """What dry friction follows that is not the same all around: of a gear off its centre."""
 CURVE = Cause(
     "unknown",
@@ -255,6 +256,7 @@ CURVE = Cause(
     "Look at its curve, and repeat the motion with only that joint moving.",
     "Use the curve in the prediction.",
     clause=clauses.nameless_clause,
+    remedy=remedies_of_curves.by_its_points,
 )
 BACKGROUND = (OFFSET, COULOMB, VISCOUS, ROTOR)
 """What every joint has, one column each: free where robot.yaml does not state it; an offset is always a cause."""

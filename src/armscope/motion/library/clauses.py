@@ -150,7 +150,9 @@ def payload_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A load that is heavier or lighter than stated, or sits elsewhere."""
     mass = numbers.get("mass")
     if mass is not None and not _open(mass):
-        return f"the arm carries {amount(mass)} {'more' if mass.value > 0 else 'less'} than stated"
+        placed = any(name.startswith("m") and name != "mass" for name in numbers)
+        where = "" if placed else ", taken to sit at the tool point"
+        return f"the arm carries {amount(mass)} {'more' if mass.value > 0 else 'less'} than stated{where}"
     off = rms_of(cause) if mass is None else f"its mass as stated {amount(mass).partition(' ')[2]}"
     return f"the load sits elsewhere than stated ({off})"
 

@@ -29,6 +29,7 @@ class Fitted:
         of_law: numbers of the law that it follows; none where it follows none.
         place: where it is, as in "link 2" or "joint 3 from joint 2".
         run: the only one that has it; empty where all have.
+        driver: what it follows.
     """
 
     cure: str
@@ -37,6 +38,7 @@ class Fitted:
     of_law: tuple[float, ...] = ()
     place: str = ""
     run: str = ""
+    driver: str = ""
 
     @property
     def first(self) -> Parameter:

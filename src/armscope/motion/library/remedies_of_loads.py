@@ -35,19 +35,30 @@ def as_tool_load(fitted: Fitted) -> str:
         cure = as_stated_and(fitted).removesuffix(".")
         return f"{cure}: less than no load, so that the last link's mass is wrong; corrected.urdf has both together."
     half = INTERVAL * numbers["mass"].stderr
-    known = np.isfinite([half, *errors]).all() and half > 0
+    known = np.isfinite(half) and half > 0 and not np.isinf(errors).any()
     decimals = decimals_for(half) if known else 3
     centre = ", ".join(f"{1e3 * each:.1f}" for each in whole.centre)
     inertia = _inertia(fitted, whole)
     content = f"{{mass_kg: {whole.mass:.{decimals}f}, com_mm: [{centre}]{inertia}}}"
-    within = ", ".join(f"{1e3 * INTERVAL * each:.1f}" for each in errors)
-    sure = f" (± {half:.{decimals}f} kg; ± {within} mm)" if known else ""
+    assumed = len(numbers) == 1
+    within = ", ".join("–" if np.isnan(each) else f"{1e3 * INTERVAL * each:.1f}" for each in errors)
+    of_place = "" if assumed else f"; ± {within} mm"
+    sure = f" (± {half:.{decimals}f} kg{of_place})" if known else ""
     told = f"{fitted.in_general}: set `tool_load` of robot.yaml to {content}{sure}{_of_run(fitted)}"
     untold = [axis for axis in "xyz" if f"m{axis}" not in numbers]
     if 0 < len(untold) < len("xyz"):
         return f"{told}. Where it sits along {' and '.join(untold)} of the last joint, this motion does not tell."
-    at_tool = f": {amount(numbers['mass'], sign=True)} at `tool_mm`" if len(numbers) == 1 else ""
-    return f"{told}{at_tool}."
+    return f"{told}{_at_assumed_place(fitted) if assumed else ''}."
+
+
+def _at_assumed_place(fitted: Fitted) -> str:
+    """Of a mass alone: where it was taken to be, and what is measured of it."""
+    stated = "tool_mm" in fitted.arm.description.model_fields_set
+    where = "at `tool_mm`" if stated else "at the last frame's origin, `tool_mm` not being stated"
+    return (
+        f": {amount(fitted.numbers['mass'], sign=True)} {where}. That place was not fitted: measured is mass × "
+        "distance, so where the load sits elsewhere, its mass is another one"
+    )
 
 
 def _of_run(fitted: Fitted) -> str:
@@ -57,7 +68,8 @@ def _of_run(fitted: Fitted) -> str:
 def _with_stated(fitted: Fitted) -> tuple[Load, Array]:
     """The whole load in the last frame, and (3,) standard errors of its centre, m, mass and moments apart.
 
-    A coordinate that the motion does not tell is that of the last frame's origin; a mass alone is at the tool point.
+    A coordinate that the motion does not tell is that of the last frame's origin, and has no error (NaN); a mass alone
+    is at the tool point, all of whose place is taken as stated.
     """
     arm, numbers = fitted.arm, fitted.numbers
     placement = arm.model.frames[arm.model.getFrameId(TIP)].placement
@@ -77,7 +89,10 @@ def _with_stated(fitted: Fitted) -> tuple[Load, Array]:
     turned = stated.inertia + _about(stated.mass, stated.centre - centre)
     turned = turned + (_about(mass, first / mass - centre) if mass else 0.0)
     turned = turned + placement.rotation.T @ _own_inertia(fitted) @ placement.rotation
-    return Load(total, centre, turned), np.sqrt(spread) / max(abs(total), 1e-300)
+    untold = [axis for axis, name in enumerate(OF_A_LOAD[1:]) if name not in numbers]
+    along = np.sum(placement.rotation[untold] ** 2, axis=0)  # of each of its own axes, what lies along untold ones
+    own = np.where(along > 0.5, np.nan, np.sqrt(spread) / max(abs(total), 1e-300))
+    return Load(total, centre, turned), own
 
 
 def _own_inertia(fitted: Fitted) -> Array:

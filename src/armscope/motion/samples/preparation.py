@@ -18,6 +18,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import CUTOFF, FILTER, READING
+from armscope.motion.samples.ends import going_on, turned_about
 from armscope.motion.samples.link_band import link_bands
 from armscope.motion.samples.timing import Stretch
 
@@ -55,9 +56,9 @@ class Preparation:
         """How many rows a stretch of samples gives."""
         return len(range(self.edge, samples - self.edge, self.every))
 
-    def smoothed(self, positions: Array, run: str) -> Array:
-        """(N, m) positions of a run through a zero-phase low-pass at their own cut-off."""
-        return without_lag(positions, dict(self.of_runs).get(run, self.position_cutoff), self.rate, 15 * self.every)
+    def position_cutoff_of(self, run: str) -> float:
+        """Hz, of a run's positions."""
+        return dict(self.of_runs).get(run, self.position_cutoff)
 
     def low_passed(self, values: Array, kept: Indices, stride: int = 1) -> Array:
         """The rows that are kept of samples (N, ...) through the zero-phase low-pass of torque and model.
@@ -71,7 +72,7 @@ class Preparation:
             (K, ...).
         """
         weights, reach = _weights(self.cutoff, self.rate, self.every, stride)
-        flat = _extended(values.reshape(len(values), -1), reach)
+        flat = turned_about(values.reshape(len(values), -1), reach)
         found = np.empty((len(kept), flat.shape[1]))
         for first in range(0, len(kept), len(weights)):
             some = kept[first : first + len(weights)]
@@ -98,7 +99,7 @@ class Preparation:
         )
 
 
-def without_lag(values: Array, cutoff: float, rate: float, padded: int) -> Array:
+def without_lag(values: Array, cutoff: float, rate: float, padded: int, going: bool = False) -> Array:
     """Samples through the low-pass, forward and back.
 
     Args:
@@ -106,12 +107,16 @@ def without_lag(values: Array, cutoff: float, rate: float, padded: int) -> Array
         cutoff: Hz.
         rate: samples per second.
         padded: samples by which the ends are continued, turned about the end points.
+        going: continue them as they go on, before that; what is left out at the ends needs it not.
 
     Returns:
         (N, ...).
     """
     from scipy.signal import sosfiltfilt  # takes long to import: a table that is refused needs none
 
+    if going:
+        whole, more = going_on(values, min(cutoff, 0.49 * rate), rate)
+        return without_lag(whole, cutoff, rate, padded)[more:-more]
     return np.asarray(sosfiltfilt(_sections(cutoff, rate), values, axis=0, padlen=min(padded, len(values) - 1)))
 
 
@@ -138,17 +143,6 @@ def _weights(cutoff: float, rate: float, every: int, stride: int) -> tuple[Array
     for number in range(len(rows)):
         rows[number, number * every : number * every + 2 * reach + 1] = response
     return rows, reach
-
-
-def _extended(values: Array, reach: int) -> Array:
-    """Samples (N, c) with `reach` more at both ends, turned about the end points, as far as there are any."""
-    turned, count = min(reach, len(values) - 1), len(values)
-    whole = np.empty((count + 2 * reach, values.shape[1]))
-    whole[reach : reach + count] = values
-    whole[reach - turned : reach] = 2 * values[0] - values[turned:0:-1]
-    whole[reach + count : reach + count + turned] = 2 * values[-1] - values[-2 : -turned - 2 : -1]
-    whole[: reach - turned], whole[reach + count + turned :] = whole[reach - turned], whole[reach + count + turned - 1]
-    return whole
 
 
 def preparation(rate: float, cutoff: float, source: str, position_cutoff: float = np.inf) -> Preparation:
@@ -261,10 +255,11 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
     low = rows[0] - min(int(rows[0]), 2 * how.edge) // stride * stride
     high = min(rows[-1] + 2 * how.edge + 1, len(stretch))
     inside = slice(low, high)
-    q = how.smoothed(stretch.q[inside], stretch.run)
+    cutoff = how.position_cutoff_of(stretch.run)
+    q = without_lag(stretch.q[inside], cutoff, how.rate, 15 * how.every, every_sample)
     path = make_interp_spline(np.arange(len(q)) / stretch.rate, q, k=5)
     times = path.t[0] + np.arange(len(q))[::stride] / stretch.rate
-    shift, twist = _beside(stretch, inside, how, times)
+    shift, twist = _beside(stretch, inside, how, times, every_sample)
     return Signals(
         stretch.run,
         number,
@@ -284,7 +279,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
 
 
 def _beside(
-    stretch: Stretch, inside: slice, how: Preparation, times: Array
+    stretch: Stretch, inside: slice, how: Preparation, times: Array, going: bool
 ) -> tuple[tuple[Array, Array, Array] | None, Array | None]:
     """What `Signals.shift` is at some times, s from the first sample inside, and link less motor of all samples."""
     if stretch.link is None:
@@ -294,6 +289,6 @@ def _beside(
     about = np.where(recorded, beside - np.median(np.where(recorded, beside, 0.0), axis=0), 0.0)
     smooth = np.zeros_like(about[inside])
     for j in np.flatnonzero(bands := np.minimum(link_bands(beside, how.rate), how.position_cutoff)):
-        smooth[:, j] = without_lag(about[inside, j], float(bands[j]), how.rate, 15 * how.every)
+        smooth[:, j] = without_lag(about[inside, j], float(bands[j]), how.rate, 15 * how.every, going)
     path = make_interp_spline(np.arange(len(smooth)) / stretch.rate, smooth, k=5)
     return (path(times), path.derivative(1)(times), path.derivative(2)(times)), beside[inside]

@@ -17,7 +17,7 @@ from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import LASTING
 from armscope.motion.summary.lasting import LastingTorque
 
-KINDS = {"viscous": "the speed", "coulomb": "the direction"}
+KINDS = {"viscous": "speed", "coulomb": "direction"}
 """Frictions, and what each follows, in words."""
 
 

@@ -41,6 +41,11 @@ class NamingRules(Constants):
         "times its stated uncertainty that a drive's gain must be off to have a name",
         "convention: one in eighty is farther out; of poses, what a background holds has a name from there, too",
     )
+    gain_that_matters: float = constant(
+        0.03,
+        "by which a drive's gain must be off for it to be told, by name where no uncertainty of it is stated",
+        "judgement: masses that are stated from a drawing leave as much",
+    )
     determined: float = constant(
         0.8,
         "of a number that its 95 % interval reaches either way, from which the number is not determined",

@@ -63,5 +63,7 @@ class HeldOutErrors:
         without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
         if not self.worse:
             return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
+        if named == without == anew:
+            return f"{ON_HELD_OUT} the torque is met to {without} by friction and rotors alone."
         told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
         return f"{told}; to {anew} where the causes, too, are found without it."

@@ -205,7 +205,7 @@ def waterfall(
     by_candidate = {effect.candidate: effect for effect in best.chosen}
     states: list[tuple[str, tuple[int, ...], bool]] = [
         ("friction and rotors", (), False),
-        ("masses near the stated", (), True),
+        (_held_near(selected), (), True),
     ]
     states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
     steps = []
@@ -220,6 +220,14 @@ def waterfall(
             Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
         )
     return tuple(steps)
+
+
+def _held_near(selected: SelectedCauses) -> str:
+    """What takes part without a name, in words."""
+    layout, used = selected.rows.layout, selected.best.columns
+    gains = bool(np.isin(layout.gains, used).any())
+    masses = bool(np.isin(layout.masses, used).any()) or not gains
+    return f"{' and '.join(['masses'] * masses + ['torque constants'] * gains)} near the stated"
 
 
 def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[float, ...]:

@@ -86,7 +86,7 @@ def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[
         It, and how far it can be trusted. A link whose number is not determined, by gains that nobody has measured
         say, or that would weigh less than nothing, has no name.
     """
-    selected = with_gains_that_stand_out(selected)
+    selected = with_gains_that_stand_out(selected, carried)
     named = with_links_that_weigh(selected)
     sure = sureness(named, carried)
     added = named.best.candidates - selected.best.candidates

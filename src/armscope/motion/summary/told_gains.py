@@ -1,45 +1,94 @@
 """Gains of drives that come out far from what is stated: each has its name, which the share of all gains hides.
 
 Gains are held near the stated ones by their own uncertainty, without a price. One that lies several times as far off
-is fitted all the same, and whoever enters the causes into a simulator but not that gain makes it worse.
+is fitted all the same, and whoever enters the causes into a simulator but not that gain makes it worse. Where no
+uncertainty is stated, a gain far off is no less: there the motion itself says how sure it is. What is left without a
+name is told by the factor that it asks for.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain
 from armscope.motion.library import catalogue
 from armscope.motion.summary.constants import NAMING
+from armscope.motion.summary.doubts import determined
+from armscope.motion.summary.intervals import sureness
+from armscope.motion.summary.judgement import cause_parameters
+from armscope.verdict.schema import Notice
+
+FITTED_GAINS = "fitted gains"
+"""Kind of the notice that gains without a name are part of the model."""
 
 
-def with_gains_that_stand_out(selected: SelectedCauses) -> SelectedCauses:
-    """The selection with names for gains that lie beyond their stated uncertainty.
+def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, float]) -> SelectedCauses:
+    """The selection with names for gains beyond their stated uncertainty, or clearly off where none is stated.
 
     Args:
         selected: a selection, all of whose names can stand.
+        carried: stated payload of runs, kg.
 
     Returns:
-        The same fit, with these gains free; itself where none stands out, or none is stated.
+        The same fit, with these gains free; itself where none stands out.
     """
-    layout, best = selected.rows.layout, selected.best
+    layout = selected.rows.layout
     if not layout.with_gains:
         return selected
-    fitted, stated = selected.coefficients[layout.gains], layout.arm.gain_uncertainty
-    far = np.flatnonzero(np.abs(fitted) > NAMING.beyond_gains * np.where(np.isnan(stated), np.inf, stated))
-    named, joints = [], []
+    off, stated = np.abs(selected.coefficients[layout.gains]), layout.arm.gain_uncertainty
+    far = {int(j) for j in np.flatnonzero(off > NAMING.beyond_gains * np.where(np.isnan(stated), np.inf, stated))}
+    unstated = {int(j) for j in np.flatnonzero(np.isnan(stated) & (off > NAMING.gain_that_matters))}
+    freed, named = _freed(selected, far | unstated)
+    if not unstated & named.keys():
+        return freed
+    sure = sureness(freed, carried)
+    asked = unstated & named.keys()
+    loose = {j for j in asked if not determined(cause_parameters(freed, named[j], sure.factor))}
+    return _freed(selected, (far | unstated) - loose)[0] if loose else freed
+
+
+def _freed(selected: SelectedCauses, joints: Collection[int]) -> tuple[SelectedCauses, dict[int, int]]:
+    """The selection with the gains of some joints free under their names, and the numbers of these by joint."""
+    layout, best = selected.rows.layout, selected.best
+    named: dict[int, SelectedEffect] = {}
     for number, (placed, columns) in enumerate(zip(layout.placed, layout.columns, strict=True)):
-        if placed.cause is catalogue.GAIN and placed.joints[0] in far and number not in best.candidates:
-            own = abs(fitted[placed.joints[0]]) * selected.problem.scale[columns[0]]
-            named.append(SelectedEffect(number, selected.problem.nearest_size(float(own)), nested=True))
-            joints.append(placed.joints[0])
+        if placed.cause is catalogue.GAIN and placed.joints[0] in joints and number not in best.candidates:
+            own = abs(selected.coefficients[layout.gains[placed.joints[0]]]) * selected.problem.scale[columns[0]]
+            size = selected.problem.nearest_size(float(own))
+            named[placed.joints[0]] = SelectedEffect(number, size, nested=True)
     if not named:
-        return selected
-    problem = selected.problem.holding(layout.gains[joints])
-    freed = Search.on(problem).evaluated((*best.chosen, *named), best)
-    return at_own_gain(replace(selected, space=problem.space, problem=problem, best=freed))
+        return selected, {}
+    problem = selected.problem.holding(layout.gains[list(named)])
+    freed = Search.on(problem).evaluated((*best.chosen, *named.values()), best)
+    found = at_own_gain(replace(selected, space=problem.space, problem=problem, best=freed))
+    return found, {joint: effect.candidate for joint, effect in named.items()}
+
+
+def told_gains(selected: SelectedCauses) -> list[Notice]:
+    """What is to be entered for gains that are part of the model without a name, where they matter."""
+    gains = selected.coefficients[selected.rows.layout.gains]
+    if np.max(np.abs(gains), initial=0.0) < NAMING.gain_that_matters:
+        return []
+    text = (
+        "Torque constants are fitted along, within what is known of them, and the model holds only with these: "
+        f"{factors_in_words(gains)}"
+    )
+    return [Notice(FITTED_GAINS, text)]
+
+
+def factors_in_words(gains: Array) -> str:
+    """What to do about gains without a name; empty where all are as stated.
+
+    Args:
+        gains: (m,) shares by which recorded torque exceeds the true one; 0 of those that have a name.
+    """
+    factors = [f"{1 / (1 + gain):.3f} (joint {j})" for j, gain in enumerate(gains, start=1)]
+    told = [each for each in factors if not each.startswith("1.000 ")]
+    return f"multiply torque constants, and so the recorded torques, by {', '.join(told)}." if told else ""

@@ -44,12 +44,12 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
         arm: as stated.
 
     Returns:
-        A sentence or two; the cause's own words where its numbers are not determined, or those of a free curve, which
-        model.yaml holds.
+        A sentence or two; the cause's own words where its numbers are not determined.
     """
     say, own = placed.cause.remedy, placed.cause.cure
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
     sure = say if determined(parameters) else None
     unsure = "" if determined(parameters) else placed.cause.open_cure
     run = placed.runs[0] if placed.runs else ""
-    return sure(Fitted(own, tuple(parameters), arm, of_law, placed.location, run)) if sure else unsure or own
+    fitted = Fitted(own, tuple(parameters), arm, of_law, placed.location, run, placed.driver)
+    return sure(fitted) if sure else unsure or own

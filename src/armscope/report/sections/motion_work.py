@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import math
 import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
+from armscope.motion.library.layout import CAUSES_OF_OWN
+from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.one_clock import ONE_CLOCK, as_one, of_one_clock
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sections.motion import friction_table
 from armscope.report.sections.motion_cards import motion_card
+from armscope.verdict.wording import capitalised
 
 IN_FULL = 3
 """Causes whose steps are told in full, as many as the headline tells; the others stand in a line each: one page."""
@@ -46,25 +52,34 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     for cause in of_one_clock(verdict.effects, moving):  # they stand together: one step, with the error after the last
         expected_after[ONE_CLOCK] = expected_after[cause.title]
     causes = as_one(verdict.effects, moving)
-    masses = masses_matter(subject)
-    told = [each for each in causes if not each.minor]
-    apart = masses and not any(_is_in_bodies(each) for each in told)
+    along = fitted_along_matters(subject)
+    masses = along and subject.masses_fitted
+    main = [each for each in causes if not each.minor]
+    minor = [each for each in causes if each.minor]
+    told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses))
+    apart = along and not any(_is_in_bodies(each) for each in told)
     tasks = []
     for number, cause in enumerate(told, start=1):
         card = motion_card(cause, number)
         rivals = tuple(other.name for other in card.alternatives if other.too_close)
         expected = error_in_words(expected_after[cause.title])
-        cure = f"{card.cure} {_masses_too(cause)}" if masses and not apart and number == 1 else card.cure
+        too = _along_too(subject, cause) if along and not apart and number == 1 else ""
+        cure = f"{card.cure} {too}".rstrip()
         tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected))
     held_out = verdict.held_out
+    to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
     return {
+        "to_enter": to_enter,
+        "first": int(to_enter) + bool(apart) + 1,
         "tasks": tasks[:IN_FULL],
         "more": tasks[IN_FULL:],
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
         "masses": masses,
+        "along": along_in_words(subject) if along else "",
         "apart": error_in_words(with_masses) if apart else "",
         "urdf": URDF,
-        "minor": [cause.title for cause in causes if cause.minor],
+        "gains": capitalised(subject.gains_fitted) if along else "",
+        "minor": [cause.title for cause in minor if cause not in told],
         "now": error_in_words(held_out.stated),
         "background": error_in_words(background),
         "model": error_in_words(held_out.model),
@@ -72,12 +87,27 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     }
 
 
-def masses_matter(subject: MotionSubject) -> bool:
-    """Whether the promised errors hold only with masses as fitted: these alone change what can be read of the error."""
-    if not subject.masses_fitted:
+def fitted_along_matters(subject: MotionSubject) -> bool:
+    """Whether the promised errors hold only with masses and torque constants as fitted: where they change them."""
+    if not subject.masses_fitted and not subject.gains_fitted:
         return False
     before, with_masses = (step.held_out for step in subject.verdict.waterfall[:2])
     return error_in_words(before) != error_in_words(with_masses)
+
+
+def along_in_words(subject: MotionSubject) -> str:
+    """What was fitted beside the causes."""
+    names = ["masses"] * subject.masses_fitted + ["torque constants"] * bool(subject.gains_fitted)
+    return " and ".join(names)
+
+
+def _paying(minor: Sequence[FoundCause], after: Mapping[str, float], before: float) -> Iterator[FoundCause]:
+    """Those worth little beside friction fitted anew that yet pay where friction is entered as it was fitted."""
+    for cause in minor:
+        if cause.doubt or not after[cause.title] < HELD_OUT.clearly_better * before:
+            return  # what comes later is promised on top of it
+        yield cause
+        before = after[cause.title]
 
 
 def _is_in_bodies(cause: FoundCause) -> bool:
@@ -86,9 +116,12 @@ def _is_in_bodies(cause: FoundCause) -> bool:
     return bool(known and known.in_bodies and " in run " not in cause.title)
 
 
-def _masses_too(cause: FoundCause) -> str:
+def _along_too(subject: MotionSubject, cause: FoundCause) -> str:
+    """What is entered with the first cause, because it was fitted along."""
     there = " (where this is done already)" if _is_in_bodies(cause) else ""
-    return f"Take the links' masses and inertias from {URDF}{there}: they were fitted along."
+    masses = f"Take the links' masses and inertias from {URDF}{there}: they were fitted along."
+    told = [masses] * subject.masses_fitted + [capitalised(subject.gains_fitted)]
+    return " ".join(each for each in told if each)
 
 
 def separating_command(subject: MotionSubject) -> str:

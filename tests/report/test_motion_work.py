@@ -1,0 +1,26 @@
+"""The work order of a motion asks for what is to be entered, and for nothing else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.report.pages.motion import write_motion_report
+from armscope.report.sections.motion_work import error_in_words
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
+
+
+def test_who_has_stated_all_drives_is_not_sent_to_a_table_of_dashes(tmp_path: Path) -> None:
+    names, sizes = ("coulomb_nm", "viscous_nm_s_rad", "rotor_inertia_kg_m2"), (COULOMB, VISCOUS, ROTOR)
+    drives = [dict(zip(names, map(float, of), strict=True)) for of in zip(*sizes, strict=True)]
+    stronger = lambda q, dq, ddq, rigid: np.sign(dq) * [0.0, 1.5, 0.0]
+    found = diagnose_motion(
+        robot(drives=drives), moved(robot(), 1, stronger, seconds=10.0), MotionSettings(cutoff=10.0)
+    )
+    write_motion_report(found, "motions.csv", tmp_path)
+    order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
+    assert "of the table below" not in order
+    assert "<h2>Friction and rotors</h2>" not in order
+    assert f"{error_in_words(found.entered[2])} after this. Measured" in order
