@@ -8,3 +8,8 @@ import pytest
 def seeds(first: int, *others: int) -> list[Any]:
     """What a test of arms that differ by their seeds is parametrised by."""
     return [first, *(pytest.param(seed, marks=pytest.mark.long) for seed in others)]
+
+
+def arms_and_seeds(short: str, whole: str, *every: int) -> list[Any]:
+    """The same where an arm without its wrist shows it as well: the others are of the whole arm, by every seed."""
+    return [(short, every[0]), *(pytest.param(whole, seed, marks=pytest.mark.long) for seed in every)]

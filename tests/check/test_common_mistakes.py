@@ -41,7 +41,8 @@ def _again(mistake, words):
         (lambda t: replace(t, motor_angles=np.degrees(t.motor_angles)), "degrees that were declared as radians"),
         (lambda t: replace(t, motor_angles=np.radians(t.motor_angles)), "radians that were declared as degrees"),
         (lambda t: replace(t, positions=t.positions / 1e3), "metres that were declared as millimetres"),
-        (lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
+        # asked of a run and beside a tool that explains nothing as well
+        _again(lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
         (lambda t: replace(t, positions=t.positions * [1, -1, 1]), "left-handed"),
         _again(lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
         (lambda t: replace(t, motor_angles=t.motor_angles[:, ::-1]), "reverse order"),

@@ -13,7 +13,7 @@ RNG = np.random.default_rng(0)
 SPREADS = {
     "anywhere": RNG.uniform(-2, 2, (400, 4)),
     "visited again": np.repeat(RNG.uniform(-2, 2, (100, 4)), 3, axis=0) + RNG.normal(0, 1e-3, (300, 4)),
-    "on a grid": np.stack(np.meshgrid(*[np.arange(5) * 0.01] * 4), axis=-1).reshape(-1, 4),
+    "on a grid": np.stack(np.meshgrid(*[np.arange(4) * 0.01] * 4), axis=-1).reshape(-1, 4),
     "one": np.zeros((1, 4)),
 }
 

@@ -20,7 +20,7 @@ from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import forward_kinematics
 from armscope.verdict.diagnosis import Diagnosis
-from tests.seeds import seeds
+from tests.seeds import arms_and_seeds
 
 from ..physics.scenes import arm_named
 from .planted import Wanted, one_run, recorded
@@ -39,7 +39,9 @@ def bending(arm_name: str, seed: int) -> Wanted:
     return wanted | {base.key: [SHARE * base.terms[0].plausible]}
 
 
-@pytest.mark.parametrize("arm_name", ["six-axis", pytest.param("seven-axis", marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "arm_name", ["four-axis", *(pytest.param(name, marks=pytest.mark.long) for name in ("six-axis", "seven-axis"))]
+)
 def test_what_bends_everywhere_gets_no_name(arm_name: str) -> None:
     arm = arm_named(arm_name)
     table = recorded(arm, one_run(arm, ROWS, seed=2), bending(arm_name, seed=2), NOISE_MM, seed=3)
@@ -49,9 +51,9 @@ def test_what_bends_everywhere_gets_no_name(arm_name: str) -> None:
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
 
 
-def with_uneven_bearings(seed: int) -> FittedModel:
+def with_uneven_bearings(arm_name: str, seed: int) -> FittedModel:
     """An arm all of whose bearings are softer about one axis, each about its own, by up to three times."""
-    arm, rng = arm_named("six-axis"), np.random.default_rng(seed)
+    arm, rng = arm_named(arm_name), np.random.default_rng(seed)
     table = one_run(arm, ROWS, seed)
     parts = []
     for even, uneven in zip(BEARING_COMPLIANCE.place(arm, table), uneven_bearings(arm, table), strict=True):
@@ -69,28 +71,29 @@ def measured(truth: FittedModel, seed: int) -> Recordings:
 
 
 @functools.cache
-def found_beside_uneven_bearings(seed: int) -> Diagnosis:
-    truth = with_uneven_bearings(seed)
+def found_beside_uneven_bearings(arm_name: str, seed: int) -> Diagnosis:
+    truth = with_uneven_bearings(arm_name, seed)
     return diagnose(truth.arm, measured(truth, seed), QUICK)
 
 
-@pytest.mark.parametrize("seed", seeds(1, 2, 3))
-def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(seed: int) -> None:
+@pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 1, 2, 3))
+def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(arm_name: str, seed: int) -> None:
     """Before they were allowed for, the base, D-H lengths and gears had names for them."""
-    verdict = found_beside_uneven_bearings(seed)
+    verdict = found_beside_uneven_bearings(arm_name, seed)
     assert {effect.family for effect in verdict.effects} <= {ELASTIC}
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
 
 
-def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should_go() -> None:
+@pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 1))
+def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should_go(arm_name: str, seed: int) -> None:
     """The family's cure, as worded: commands computed from the model, at other poses, on the true arm."""
-    truth = with_uneven_bearings(seed=1)
-    table = measured(truth, seed=1)
+    truth = with_uneven_bearings(arm_name, seed)
+    table = measured(truth, seed)
     poses = one_run(truth.arm, 40, seed=91)
-    path = pd.DataFrame(poses.motor_angles, columns=[f"q{j}_rad" for j in range(1, 7)])
+    path = pd.DataFrame(poses.motor_angles, columns=[f"q{j + 1}_rad" for j in range(truth.arm.n_motors)])
     path = path.assign(payload_kg=poses.payload, temperature_c=poses.temperature)
     wanted = forward_kinematics(truth.arm, poses.motor_angles)
-    found = compensate(found_beside_uneven_bearings(1).model, path, table)
+    found = compensate(found_beside_uneven_bearings(arm_name, seed).model, path, table)
     reached = np.isfinite(found.commands).all(axis=1)
 
     def missed_mm(angles: Array) -> float:
@@ -102,23 +105,27 @@ def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should
 
 
 @pytest.mark.parametrize(
-    "softer",
-    # of the base it is asked below as well, where it is less soft
-    [("link_bending", "link 2"), pytest.param(("base_compliance", "base"), marks=pytest.mark.long)],
+    ("arm_name", "softer"),
+    [
+        ("four-axis", ("link_bending", "link 2")),
+        pytest.param("six-axis", ("link_bending", "link 2"), marks=pytest.mark.long),
+        # asked below as well, where it is less soft
+        pytest.param("six-axis", ("base_compliance", "base"), marks=pytest.mark.long),
+    ],
 )
-def test_what_bends_far_more_than_the_rest_is_named(softer: tuple[str, str]) -> None:
-    arm = arm_named("six-axis")
-    wanted = dict(bending("six-axis", seed=2))
+def test_what_bends_far_more_than_the_rest_is_named(arm_name: str, softer: tuple[str, str]) -> None:
+    arm = arm_named(arm_name)
+    wanted = dict(bending(arm_name, seed=2))
     wanted[softer] = [10 * value for value in wanted[softer]]
     found = diagnose(arm, recorded(arm, one_run(arm, ROWS, seed=2), wanted, NOISE_MM, seed=3), QUICK).effects[0]
     assert softer in {(found.effect, found.location), *((a.effect, a.location) for a in found.alternatives)}
 
 
-@pytest.mark.parametrize("seed", seeds(3, 4, 7))
-def test_a_base_softer_than_what_bends_is_named_with_what_lies_beside_it_alone(seed: int) -> None:
+@pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 3, 4, 7))
+def test_a_base_softer_than_what_bends_is_named_with_what_lies_beside_it_alone(arm_name: str, seed: int) -> None:
     """The background has the base about two axes, which took the name's place, or a gear's with it."""
-    arm, base = arm_named("six-axis"), ("base_compliance", "base")
-    wanted = dict(bending("six-axis", seed))
+    arm, base = arm_named(arm_name), ("base_compliance", "base")
+    wanted = dict(bending(arm_name, seed))
     wanted[base] = [4 * value for value in wanted[base]]
     (found,) = diagnose(arm, recorded(arm, one_run(arm, ROWS, seed), wanted, NOISE_MM, seed + 1), QUICK).effects
     assert (found.effect, found.location) == base

@@ -57,6 +57,7 @@ def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
     np.testing.assert_array_equal(verdict.model.arm.gravity, arm.gravity)
 
 
+@pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not MA1400.is_dir(), reason=f"../shared/recordings/{MA1400.name} is not here")
 def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:

@@ -18,13 +18,15 @@ from armscope.robot.kinematics import joint_jacobian
 from armscope.verdict.contributions import contributions
 from armscope.verdict.schema import Verdict
 from armscope.verdict.work_order import work_order
-from tests.seeds import seeds
+from tests.seeds import arms_and_seeds, seeds
 
 from .planted import planted
 
 QUICK = Settings(resamples=0, cross_validation=False)
 NOISE_MM = 0.01
 PLAY = {("backlash", "joint 2"): [4e-4]}
+SHOULDER_ON = {"four-axis-modified": range(2, 5), "seven-axis": range(2, 7)}
+"""Joints that bear a load."""
 
 
 def names(verdict: Verdict) -> set[tuple[str, str]]:
@@ -45,20 +47,20 @@ def wound(
     return arm, replace(table, positions=table.positions + moved)
 
 
-@pytest.mark.parametrize("seed", seeds(1, 2, 3))
-def test_drives_that_harden_are_not_told_as_play(seed: int) -> None:
+@pytest.mark.parametrize(("arm", "seed"), arms_and_seeds("four-axis-modified", "seven-axis", 1, 2, 3))
+def test_drives_that_harden_are_not_told_as_play(arm: str, seed: int) -> None:
     """Most of it at the tool is the shoulder's, which may be named: as what gives way."""
-    verdict = diagnose(*wound("seven-axis", dict.fromkeys(range(2, 7), 4e-5), seed), QUICK)
-    assert names(verdict) <= {("joint_compliance", f"joint {j}") for j in range(2, 7)}
+    verdict = diagnose(*wound(arm, dict.fromkeys(SHOULDER_ON[arm], 4e-5), seed), QUICK)
+    assert names(verdict) <= {("joint_compliance", f"joint {j}") for j in SHOULDER_ON[arm]}
     (springs,) = [family for family in verdict.background_families if family.family == ELASTIC]
     assert springs.present
     assert verdict.residual_after_mm < 1.1 * NOISE_MM
 
 
-@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+@pytest.mark.parametrize(("arm", "seed"), arms_and_seeds("four-axis-modified", "seven-axis", 1, 2, 3))
 @pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), 4e-5])
-def test_play_is_named_beside_drives_that_harden(turn: float, seed: int) -> None:
-    verdict = diagnose(*wound("seven-axis", dict.fromkeys(range(3, 7), turn), seed, PLAY), QUICK)
+def test_play_is_named_beside_drives_that_harden(turn: float, arm: str, seed: int) -> None:
+    verdict = diagnose(*wound(arm, dict.fromkeys(SHOULDER_ON[arm][1:], turn), seed, PLAY), QUICK)
     assert names(verdict) == {("backlash", "joint 2")}
     (gap,) = verdict.effects[0].parameters
     assert abs(gap.value - 4e-4) < 3 * gap.stderr

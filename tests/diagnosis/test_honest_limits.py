@@ -26,6 +26,14 @@ def clean() -> tuple[Arm, Recordings]:
     return planted("four-axis", {}, 80, 0.03, seed=60)
 
 
+@pytest.fixture(scope="module")
+def mirrored() -> tuple[Recordings, Verdict]:
+    """The clean table in a left-handed frame, and what is said of it."""
+    arm, table = planted("four-axis", {}, 80, 0.03, seed=60)
+    table = replace(table, positions=table.positions * [1, -1, 1])
+    return table, diagnose(arm, table, QUICK)
+
+
 def kinds(verdict: Verdict) -> set[str]:
     return {notice.kind for notice in verdict.notices}
 
@@ -71,9 +79,8 @@ def test_lengths_in_another_unit(clean: tuple[Arm, Recordings]) -> None:
     cannot_tell(diagnose(arm, replace(table, positions=table.positions * 1000), QUICK), "units")
 
 
-def test_a_left_handed_frame(clean: tuple[Arm, Recordings]) -> None:
-    arm, table = clean
-    cannot_tell(diagnose(arm, replace(table, positions=table.positions * [1, -1, 1]), QUICK), "left-handed frame")
+def test_a_left_handed_frame(mirrored: tuple[Recordings, Verdict]) -> None:
+    cannot_tell(mirrored[1], "left-handed frame")
 
 
 def test_another_number_of_motors(clean: tuple[Arm, Recordings]) -> None:
@@ -161,14 +168,21 @@ def test_a_diagnosis_keeps_the_table_as_it_was_used(clean: tuple[Arm, Recordings
     assert identified_on(arm, whole).domain.outside(far)[0] < identified_on(arm, used).domain.outside(far)[0]
 
 
-def test_a_mistake_is_told_once_and_as_the_check_tells_it(clean: tuple[Arm, Recordings]) -> None:
+@pytest.mark.parametrize(
+    "mistake", ["mirrored", *(pytest.param(each, marks=pytest.mark.long) for each in ("inches", "joints exchanged"))]
+)
+def test_a_mistake_is_told_once_and_as_the_check_tells_it(
+    clean: tuple[Arm, Recordings], mirrored: tuple[Recordings, Verdict], mistake: str
+) -> None:
     arm, table = clean
-    for wrong in (
-        replace(table, positions=table.positions * [1, -1, 1]),
-        replace(table, positions=table.positions / 25.4),
-        replace(table, motor_angles=table.motor_angles[:, [0, 2, 1, 3]]),
-    ):
-        (problem,) = (each for each in check(wrong, arm).suspicions if each.weight == "problem")
-        told = [notice.text for notice in diagnose(arm, wrong, QUICK).notices if problem.statement[1:] in notice.text]
-        assert len(told) == 1
-        assert problem.cure in told[0]
+    if mistake == "mirrored":
+        wrong, verdict = mirrored
+    else:
+        inches = replace(table, positions=table.positions / 25.4)
+        exchanged = replace(table, motor_angles=table.motor_angles[:, [0, 2, 1, 3]])
+        wrong = inches if mistake == "inches" else exchanged
+        verdict = diagnose(arm, wrong, QUICK)
+    (problem,) = (each for each in check(wrong, arm).suspicions if each.weight == "problem")
+    told = [notice.text for notice in verdict.notices if problem.statement[1:] in notice.text]
+    assert len(told) == 1
+    assert problem.cure in told[0]

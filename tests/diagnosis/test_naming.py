@@ -58,9 +58,9 @@ def test_nothing_gives_way_against_its_load() -> None:
             assert effect.parameters[0].value > 0
 
 
-def bent_spring(beyond: float, rows: int = 250) -> tuple[Arm, Recordings]:
+def bent_spring(name: str, beyond: float, rows: int = 250) -> tuple[Arm, Recordings]:
     """A drive of joint 2 that gives way in proportion to its load, and more beyond half of the largest load."""
-    arm, table = planted("six-axis", {}, rows, 0.01, seed=4)
+    arm, table = planted(name, {}, rows, 0.01, seed=4)
     scene = Scene(arm, table)
     load = scene.torques[:, 1]
     turn = 4e-7 * (load + beyond * np.sign(load) * np.maximum(np.abs(load) - 0.5 * np.abs(load).max(), 0.0))
@@ -68,8 +68,9 @@ def bent_spring(beyond: float, rows: int = 250) -> tuple[Arm, Recordings]:
     return arm, replace(table, positions=table.positions + moved)
 
 
-def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_unknown() -> None:
-    verdict = diagnose(*bent_spring(0.5), QUICK)
+@pytest.mark.parametrize("name", ["four-axis", pytest.param("six-axis", marks=pytest.mark.long)])
+def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_unknown(name: str) -> None:
+    verdict = diagnose(*bent_spring(name, 0.5), QUICK)
     assert names(verdict) == {("joint_compliance", "joint 2"), ("unknown", "joint 2")}
     line, rest = sorted(verdict.effects, key=lambda effect: effect.effect)
     assert 4e-7 < line.parameters[0].value < 6e-7
@@ -78,7 +79,7 @@ def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_un
 
 
 def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
-    verdict = diagnose(*bent_spring(4.0, rows=120), QUICK)
+    verdict = diagnose(*bent_spring("six-axis", 4.0, rows=120), QUICK)
     assert names(verdict) == {("unknown", "joint 2")}
 
 
@@ -120,9 +121,10 @@ def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: fl
         assert found["unknown"].rms_at_tool_mm < found["backlash"].rms_at_tool_mm / 3
 
 
+@pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")
-@pytest.mark.parametrize("torques", ["recorded", pytest.param("withheld", marks=pytest.mark.long)])
+@pytest.mark.parametrize("torques", ["recorded", "withheld"])
 def test_a_real_arm_that_gives_way_is_told_so_joint_by_joint(torques: str) -> None:
     """README: 62.5, 67.7 and 54.6 urad per N m where nothing else gives; the mass table is too light by 1.3 to 1.46.
 

@@ -29,7 +29,7 @@ POINT_MM, TURN_MRAD = 0.02, 0.1
 
 
 def oriented(
-    name: str, wanted: Wanted, rows: int = 150, seed: int = 3, held: tuple[int, ...] = ()
+    name: str, wanted: Wanted, rows: int = 90, seed: int = 3, held: tuple[int, ...] = ()
 ) -> tuple[Arm, Recordings]:
     """An arm whose points and orientations were measured; motors ``held`` (from 1) stand still."""
     arm = arm_named(name)
@@ -77,7 +77,7 @@ def test_a_true_arm_with_noisy_orientations_misses_nothing(seed: int) -> None:
 def test_a_turn_counts_beside_a_shift_by_the_ratio_of_their_noises(with_turns: Diagnosis) -> None:
     seen = with_turns.orientations
     assert seen is not None
-    assert seen.rows == 150
+    assert seen.rows == 90
     assert seen.noise_mrad == pytest.approx(TURN_MRAD, rel=0.06)
     assert seen.lever_mm == pytest.approx(1e3 * POINT_MM / TURN_MRAD, rel=0.1)
     assert seen.before_mrad > 1.3 * seen.noise_mrad
@@ -120,7 +120,7 @@ def test_what_hardly_moves_the_point_shows_in_the_turn() -> None:
     wave: Wanted = {("gear_eccentricity", "joint 6"): [1.2e-3, 0.0]}
     arm = arm_named("six-axis")
     on_axis = build_arm(arm.description.model_copy(update={"tool_mm": (0.0, 0.0, 80.0)}))
-    table = recorded(on_axis, one_run(arm, 150, 3), wave, POINT_MM, 5, turn_noise_mrad=TURN_MRAD)
+    table = recorded(on_axis, one_run(arm, 90, 3), wave, POINT_MM, 5, turn_noise_mrad=TURN_MRAD)
     assert ("gear_eccentricity", "joint 6") not in names(diagnose(on_axis, without(table), QUICK))
     verdict = diagnose(on_axis, table, QUICK)
     assert names(verdict) == {("gear_eccentricity", "joint 6")}
@@ -149,7 +149,7 @@ def test_orientations_of_some_rows_only_are_used_where_they_are() -> None:
     verdict = diagnose(arm, table, QUICK)
     assert names(verdict) == {("joint_offset", "joint 3")}
     assert verdict.orientations is not None
-    assert verdict.orientations.rows == 75
+    assert verdict.orientations.rows == 45
 
 
 def test_wild_orientations_do_not_drag_the_model() -> None:
@@ -157,7 +157,7 @@ def test_wild_orientations_do_not_drag_the_model() -> None:
     assert table.orientation is not None
     wild = table.orientation.copy()
     turns = Rotation.from_rotvec([[0.02, 0, 0], [0, 0.5, 0], [0, 0, 3.0]])
-    wild[[3, 50, 90]] = (turns * Rotation.from_quat(wild[[3, 50, 90]], scalar_first=True)).as_quat(scalar_first=True)
+    wild[[3, 50, 80]] = (turns * Rotation.from_quat(wild[[3, 50, 80]], scalar_first=True)).as_quat(scalar_first=True)
     verdict = diagnose(arm, replace(table, orientation=wild), QUICK)
     assert names(verdict) == {("joint_offset", "joint 3")}
     value = verdict.effects[0].parameters[0]

@@ -105,6 +105,7 @@ def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_sho
     assert all(a.evidence_gap_nats >= 0 for effect in verdict.effects for a in effect.alternatives)
 
 
+@pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not IRB120.is_dir(), reason=f"../shared/recordings/{IRB120.name} is not here")
 def test_a_real_tool_point_that_is_another_one_is_found_where_nobody_says_so() -> None:

@@ -45,8 +45,8 @@ def chosen_worlds() -> list[WorldSpec]:
     return [*first.values(), multiple.model_copy(update={"id": LONG, "rows": 3300})]
 
 
-LAST = "seven-axes-modified-dh"
-"""An example that is diagnosed by tests/diagnosis/test_diagnose.py as well."""
+EXAMPLES_AGAIN = ("five-effects", "seven-axes-modified-dh")
+"""The one that takes longest, and one that is diagnosed by tests/diagnosis/test_diagnose.py as well."""
 AGAIN = ("clean", "single", "multiple", "real", "bad_shots", "inseparable", "misleading")
 """Categories of which an example is one as well, and those that take longest."""
 
@@ -54,7 +54,7 @@ AGAIN = ("clean", "single", "multiple", "real", "bad_shots", "inseparable", "mis
 def verdicts(only: str = "") -> Iterator[tuple[str, Verdict]]:
     """Every case's name and verdict; of the worlds all, or those of `AGAIN`, or the others, or the long one."""
     for example in sorted(path.parent for path in (ROOT / "examples").glob("*/recordings.csv")):
-        if only in ("", "examples") or only == ("again" if example.name == LAST else "others"):
+        if only in ("", "examples") or only == ("again" if example.name in EXAMPLES_AGAIN else "others"):
             yield example.name, diagnosed(example, Settings(resamples=2))
     if only in ("", "worlds", "again", "others", "long"):
         with tempfile.TemporaryDirectory() as made:

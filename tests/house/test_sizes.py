@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,9 +20,13 @@ def modules() -> Iterator[tuple[str, list[str]]]:
         yield str(path.relative_to(PACKAGE)), path.read_text(encoding="utf-8").splitlines()
 
 
-def functions(lines: list[str]) -> Iterator[ast.FunctionDef]:
-    tree = ast.parse("\n".join(lines))
-    return (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef))
+def functions(lines: list[str]) -> list[ast.FunctionDef]:
+    return _functions("\n".join(lines))
+
+
+@functools.cache  # two tests look at all modules
+def _functions(text: str) -> list[ast.FunctionDef]:
+    return [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
 
 
 def first_line(function: ast.FunctionDef) -> int:

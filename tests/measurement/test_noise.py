@@ -135,7 +135,7 @@ def test_constant_noise_stays_silent(seed: int) -> None:
         assert all(notice.kind != "noise by distance" for notice in verdict.notices)
 
 
-@pytest.mark.parametrize("rows", [8, pytest.param(20, marks=pytest.mark.long), 50])
+@pytest.mark.parametrize("rows", [*(pytest.param(rows, marks=pytest.mark.long) for rows in (8, 20)), 50])
 def test_few_rows_of_constant_noise_hardly_ever_seem_to_grow(rows: int) -> None:
     """Below 1 in 200 by the evidence asked for; a table of fifty rows that grows clearly is still seen to."""
     rng = np.random.default_rng(rows)

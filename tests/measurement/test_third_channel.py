@@ -141,12 +141,14 @@ def gravity_by_pinocchio(arm: Arm, q: np.ndarray, payload: np.ndarray) -> np.nda
     return torques
 
 
-def read_torques(arm: Arm, table: Recordings, seed: int, compliance: Sequence[float] = (0.0,) * 6) -> np.ndarray:
+def read_torques(arm: Arm, table: Recordings, seed: int, compliance: Sequence[float] = ()) -> np.ndarray:
     """(N, m) torques where drives that give way (rad/(N m)) have come to rest, with noise and unknown zeros, N m."""
     assert table.payload is not None
     torques = gravity_by_pinocchio(arm, table.motor_angles, table.payload)
     for _ in range(2):
-        torques = gravity_by_pinocchio(arm, table.motor_angles + np.array(compliance) * torques, table.payload)
+        torques = gravity_by_pinocchio(
+            arm, table.motor_angles + np.array(compliance or [0.0] * arm.n_motors) * torques, table.payload
+        )
     rng = np.random.default_rng(seed)
     return torques + rng.normal(size=arm.n_motors) + TORQUE_NM * rng.normal(size=torques.shape)
 
@@ -168,7 +170,7 @@ def with_ripples(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("with_ripples")
 def test_a_torque_ripple_is_found_by_torques_and_not_by_positions() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, ROWS, 5), {("joint_offset", "joint 2"): [3e-4]}, POINT_MM, 6)
     torques = read_torques(arm, table, 7)
     torques[:, JOINT - 1] += 0.5 * np.cos(PER_TURN * table.motor_angles[:, JOINT - 1] + 0.4)
@@ -205,7 +207,7 @@ def test_a_payload_error_is_told_more_narrowly_with_torques() -> None:
 
 
 def test_a_true_arm_with_torques_misses_nothing() -> None:
-    arm = arm_named("six-axis")
+    arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, ROWS, 15), {}, POINT_MM, 16)
     verdict = diagnose(arm, table, QUICK, channels=(*CHANNELS, channel(table, read_torques(arm, table, 17))))
     assert verdict.answer == "nothing missing"

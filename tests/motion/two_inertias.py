@@ -42,9 +42,14 @@ def recorded(behind: str, joint: int = 2, seed: int = 1, runs: int = 2, noise: f
 
 
 @lru_cache  # what several modules ask of it, in one process
+def said_of(behind: str, joint: int, seed: int = 1) -> MotionDiagnosis:
+    """What is said of what was recorded."""
+    return diagnose_motion(robot(), as_motions(recorded(behind, joint, seed), "motions.csv", 3))
+
+
 def wound_up() -> MotionDiagnosis:
     """What is said of the arm whose third joint has a soft spring."""
-    return diagnose_motion(robot(), as_motions(recorded(spring(3000.0), 3, 4), "motions.csv", 3))
+    return said_of(spring(3000.0), 3, 4)
 
 
 @lru_cache  # the rigid arm is the same in many tests, and a second of MuJoCo's steps

@@ -12,14 +12,14 @@ from armscope.robot.arm import build_arm
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"
 ARMS = ("parallelogram-120kg", "six-axis", "seven-axis")
-FOUR_AXES = "four-axis"
-"""The six-axis arm without its wrist: a diagnosis of it takes about half as long, where the claim is of no wrist."""
+FOUR_AXES = {"four-axis": "six-axis", "four-axis-modified": "seven-axis"}
+"""Arms without their wrists: a diagnosis of one takes about half as long, where the claim is of no wrist."""
 
 
 def arm_named(name: str) -> Arm:
-    if name != FOUR_AXES:
+    if name not in FOUR_AXES:
         return load_arm(ROBOTS / f"{name}.yaml")
-    whole = load_arm(ROBOTS / "six-axis.yaml").description
+    whole = load_arm(ROBOTS / f"{FOUR_AXES[name]}.yaml").description
     assert whole.links is not None
     assert whole.joint_limits_deg is not None
     dh = whole.dh.model_copy(update={"joints": whole.dh.joints[:4]})

@@ -25,8 +25,9 @@ from armscope.recordings import Recordings
 
 from .scenes import arm_named, full_table
 
-KINDS = ["parallelogram-120kg", "seven-axis", pytest.param("six-axis", marks=pytest.mark.long)]
-"""By standard rows and by modified ones; the third has no effect that one of them lacks."""
+LATER = [pytest.param(name, marks=pytest.mark.long) for name in ("seven-axis", "six-axis")]
+KINDS = ["parallelogram-120kg", "four-axis-modified", *LATER]
+"""By standard rows and by modified ones; the others have no effect that one of these lacks."""
 
 
 def with_orientations(table: Recordings) -> Recordings:

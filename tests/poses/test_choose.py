@@ -69,8 +69,8 @@ def test_every_kept_parameter_is_told_apart_and_moves_the_tool_by_a_millimetre(c
 
 @pytest.fixture(scope="module")
 def compared(choice):
-    """Thirty arms measured at each set of poses."""
-    return compare_sets(choice, NOISE, 30)
+    """Fifteen arms measured at each set of poses."""
+    return compare_sets(choice, NOISE, 15)
 
 
 def test_chosen_poses_beat_random_ones_and_a_grid(compared):

@@ -94,7 +94,7 @@ def test_every_set_names_its_files_and_how_they_are_read(folder: Path) -> None:
 @pytest.mark.shared
 @pytest.mark.parametrize(
     "folder",
-    [pytest.param(path, marks=[pytest.mark.long] * (path.name == "panda-motion")) for path in SETS],
+    [pytest.param(path, marks=[pytest.mark.long] * (path.name in ("panda-motion", "ur10e-currents"))) for path in SETS],
     ids=lambda path: path.name,
 )
 def test_a_real_set_converts_to_the_reference_table_within_its_rounding(folder: Path, tmp_path: Path) -> None:

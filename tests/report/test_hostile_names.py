@@ -51,7 +51,7 @@ def reported(tmp_path_factory):
     """A report on recordings whose every name is hostile, and one on the same with harmless names."""
     folder, pages = tmp_path_factory.mktemp("hostile"), {}
     for kind, word in (("harmless", "plain"), ("hostile", EVIL)):
-        table = pd.read_csv(EXAMPLE / "recordings.csv", dtype={"run": str}).head(120)
+        table = pd.read_csv(EXAMPLE / "recordings.csv", dtype={"run": str}).head(60)
         table["run"] = word + table["run"].astype(str)
         table["id"] = [f"{word} {row}" for row in range(len(table))]
         table["target"] = word

@@ -36,7 +36,7 @@ def names(visibility):
     return {(a.effect, a.location) for a in visibility.alternatives}
 
 
-@pytest.mark.parametrize("arm", ARMS)
+@pytest.mark.parametrize("arm", [ARMS[0], *(pytest.param(name, marks=pytest.mark.long) for name in ARMS[1:])])
 def test_the_patterns_of_each_effect_make_what_the_engine_simulates(arm):
     """Every effect but those left out, at two places, simulated small: its own patterns explain it to a percent."""
     scene, _ = scene_of(arm, count=30)

@@ -50,7 +50,9 @@ def test_a_spring_that_nobody_stated_may_be_one(lifts_nm: float) -> None:
     assert wave.confirm.startswith("See first whether a spring")
 
 
-@pytest.mark.parametrize("ahead", [np.pi, np.pi / 2, pytest.param(-np.pi / 2, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "ahead", [np.pi, *(pytest.param(turn, marks=pytest.mark.long) for turn in (np.pi / 2, -np.pi / 2))]
+)
 def test_a_wave_that_adds_to_the_give_or_lies_across_it_is_no_spring(ahead: float) -> None:
     wave = wave_found(*with_wave_of_joint_2(600.0, ahead))
     assert wave.named_as == "effect"

@@ -104,7 +104,7 @@ GRIPPER = pin.Inertia(0.8, np.array([0.31, 0.02, 0.03]), np.diag([0.004, 0.009, 
 """kg, m in the last joint's frame, kg m^2 about its own centre."""
 
 
-@pytest.mark.parametrize("link", [1.0, 0.97])
+@pytest.mark.parametrize("link", [pytest.param(1.0, marks=pytest.mark.long), 0.97])
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_load_with_an_inertia_of_its_own_is_a_load(seed: int, link: float) -> None:
     """As a point it was none: masses that are off "without a name" took its place.

@@ -193,8 +193,8 @@ CASES = {
 }
 
 
-AGAIN = ("centre of the last", "payload")
-"""The same card as another's, of a case that is easier."""
+AGAIN = ("dry", "viscous", "centre of the last", "payload")
+"""The same card as another's: as the rotor's, which is one more number of a drive, or of a case that is easier."""
 
 
 @pytest.mark.parametrize("kind", [pytest.param(kind, marks=[pytest.mark.long] * (kind in AGAIN)) for kind in CASES])

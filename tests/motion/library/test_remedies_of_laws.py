@@ -167,7 +167,7 @@ CASES = {
 }
 
 
-AGAIN = ("rubs with the sum", "turns with the sum", "coil spring")
+AGAIN = ("grease that thins", "warm", "rubs with the sum", "turns with the sum", "coil spring")
 """The same card as another's: with the difference, a sign has to be read as well."""
 
 

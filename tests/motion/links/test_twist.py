@@ -8,7 +8,7 @@ from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.verdict import FoundCause
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import robot
-from tests.motion.two_inertias import RIGID, play, recorded, spring
+from tests.motion.two_inertias import RIGID, play, recorded, said_of, spring
 
 
 def diagnosed(table: pd.DataFrame) -> MotionDiagnosis:
@@ -28,7 +28,7 @@ SPRINGS = [
 
 @pytest.mark.parametrize(("joint", "stiffness", "seed"), SPRINGS)
 def test_a_spring_between_two_inertias_is_found_with_its_stiffness(joint: int, stiffness: float, seed: int) -> None:
-    found = diagnosed(recorded(spring(stiffness), joint, seed))
+    found = said_of(spring(stiffness), joint, seed)
     (cause,) = named(found)
     assert (cause.effect, cause.location, cause.doubt) == ("joint_elasticity", f"joint {joint}", "")
     told = cause.parameters[0]
@@ -65,7 +65,7 @@ def test_zeros_that_differ_are_an_offset_and_no_cause(rigid: MotionDiagnosis) ->
 
 
 def test_a_play_is_no_spring() -> None:
-    (cause,) = named(diagnosed(recorded(play(1e-3), 1)))
+    (cause,) = named(said_of(play(1e-3), 1))
     assert cause.effect == "joint_play"
     low, high = cause.parameters[0].interval
     assert low < 1e-3 < high

@@ -39,8 +39,13 @@ def test_a_clean_arm_stays_dark(seed: int) -> None:
     [
         (at(1, lambda q, dq, ddq, rigid: 2 * np.sin(9 * q)), "joint 1", "joint angle"),
         (rubbing_with_load, "joint 2", "load"),
-        (at(3, lambda q, dq, ddq, rigid: np.ones_like(q)), "joint 3", "constant"),
-        (at(3, lambda q, dq, ddq, rigid: 2 * np.abs(dq)), "joint 3", "direction"),
+        *(
+            pytest.param(at(3, torque), "joint 3", driver, marks=pytest.mark.long)
+            for driver, torque in (
+                ("constant", lambda q, dq, ddq, rigid: np.ones_like(q)),
+                ("direction", lambda q, dq, ddq, rigid: 2 * np.abs(dq)),
+            )
+        ),
     ],
 )
 def test_what_is_planted_lights_up_at_its_joint_and_driver_and_is_gone_after_the_fit(
