@@ -6,6 +6,7 @@ nothing, and nothing would be missing. But beside what a run leaves about its ow
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,12 +81,15 @@ class _Runs:
         number, left = zero if by_zero else gain
         more = number - np.median(number)
         clear = self._clear(more, follows, left)
-        found = [self._difference(more, follows, clear, (by_zero, alike))] if clear.any() else []
-        return [*found, *self._over_time(left)]
+        slow = self._over_time(left)
+        found = [self._difference(more, follows, clear, (by_zero, alike), slow)] if clear.any() else []
+        return [*found, *slow.values()]
 
     def _by_run(self, follows: Array) -> tuple[Array, Array]:
         """(R,) how much of what follows something (N,) each run holds, and (N,) what is left then."""
-        number = np.array([self.left[own] @ follows[own] / (follows[own] @ follows[own]) for own in self.there])
+        number = np.array(
+            [self.left[own] @ follows[own] / max(follows[own] @ follows[own], 1e-300) for own in self.there]
+        )
         return number, self.left - number[self.of_run] * follows
 
     def _clear(self, more: Array, follows: Array, left: Array) -> NDArray[np.bool_]:
@@ -98,25 +102,34 @@ class _Runs:
         least = noise * np.maximum(DIFFERING.clear, DIFFERING.widths * np.sqrt(lasts / rows))
         return np.asarray(np.abs(more) * rms > least)
 
-    def _difference(self, more: Array, follows: Array, clear: NDArray[np.bool_], how: tuple[bool, bool]) -> _Difference:
+    def _difference(
+        self,
+        more: Array,
+        follows: Array,
+        clear: NDArray[np.bool_],
+        how: tuple[bool, bool],
+        slow: Mapping[int, _Difference],
+    ) -> _Difference:
         by_zero, alike = how
         factor, unit, sides = (
             (1, f" {self.unit}", ("higher", "lower")) if by_zero else (100, " %", ("larger", "smaller"))
         )
         told = [f"{rounded(factor * abs(by))}{unit} {sides[int(by < 0)]}" for by in more]
-        where = enumerated([f"{told[n]} in {self.names[n]}" for n in np.flatnonzero(clear)], "and")
+        where = enumerated(
+            [f"{told[n]} in {self.names[n]}{', not all the time' * (n in slow)}" for n in np.flatnonzero(clear)], "and"
+        )
         why = enumerated([*_REASONS[0], *_REASONS[1]] if alike else list(_REASONS[int(not by_zero)]), "or")
         power = float(np.mean((more[self.of_run] * follows) ** 2))
         return _Difference(f"run: it reads {where}, against their median (as by {why})", power)
 
-    def _over_time(self, left: Array) -> list[_Difference]:
-        """Runs most of whose own residual is slow."""
-        found = []
-        for name, own in zip(self.names, self.there, strict=True):
+    def _over_time(self, left: Array) -> dict[int, _Difference]:
+        """Runs most of whose own residual is slow, by their numbers."""
+        found = {}
+        for n, own in enumerate(self.there):
             curve = hats(self.time[own], DIFFERING.knots)
             slow = curve @ np.linalg.lstsq(curve, left[own], rcond=None)[0]
             if np.mean(slow**2) > DIFFERING.slow * np.mean(left[own] ** 2):
                 most = f"{rounded(float(np.abs(slow).max()))} {self.unit}"
                 power = float(np.sum(slow**2)) / len(left)
-                found.append(_Difference(f"time in {name}, by up to {most} (a drift or a jump)", power))
+                found[n] = _Difference(f"time in {self.names[n]}, by up to {most} (a drift or a jump)", power)
         return found
