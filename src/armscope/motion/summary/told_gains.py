@@ -18,6 +18,7 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain
+from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.library import catalogue
 from armscope.motion.summary.constants import NAMING
 from armscope.motion.summary.doubts import determined
@@ -32,6 +33,8 @@ FITTED_GAINS = "fitted gains"
 def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, float]) -> SelectedCauses:
     """The selection with names for gains beyond their stated uncertainty, or clearly off where none is stated.
 
+    Where masses are off, too, without a name, a gain of no stated uncertainty is fitted along: it has no name.
+
     Args:
         selected: a selection, all of whose names can stand.
         carried: stated payload of runs, kg.
@@ -44,7 +47,8 @@ def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, fl
         return selected
     off, stated = np.abs(selected.coefficients[layout.gains]), layout.arm.gain_uncertainty
     far = {int(j) for j in np.flatnonzero(off > NAMING.beyond_gains * np.where(np.isnan(stated), np.inf, stated))}
-    unstated = {int(j) for j in np.flatnonzero(np.isnan(stated) & (off > NAMING.gain_that_matters))}
+    clearly = np.isnan(stated) & (off > NAMING.gain_that_matters) & (not _masses_are_free(selected))
+    unstated = {int(j) for j in np.flatnonzero(clearly)}
     freed, named = _freed(selected, far | unstated)
     if not unstated & named.keys():
         return freed
@@ -52,6 +56,12 @@ def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, fl
     asked = unstated & named.keys()
     loose = {j for j in asked if not determined(cause_parameters(freed, named[j], sure.factor))}
     return _freed(selected, (far | unstated) - loose)[0] if loose else freed
+
+
+def _masses_are_free(selected: SelectedCauses) -> bool:
+    """Whether masses are off without a name: a joint's gain is then known no better than the masses that it holds."""
+    sizes = zip(selected.space.families, selected.best.background, strict=True)
+    return any(size > 0 for family, size in sizes if family.name in OF_MASSES)
 
 
 def _freed(selected: SelectedCauses, joints: Collection[int]) -> tuple[SelectedCauses, dict[int, int]]:
