@@ -10,7 +10,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from armscope.motion.summary.differing_runs import differing_runs
+from armscope.motion.summary.differing_runs import _Runs, differing_runs
 from tests.motion.moving import Plant, moved, robot
 
 Reading = Callable[[int, Array, Array], Array]
@@ -79,3 +79,25 @@ def test_what_is_the_same_in_all_runs_differs_in_none() -> None:
 
 def test_of_a_single_run_nothing_differs() -> None:
     assert not differing_runs(diagnosed(2, lambda run, at, torque: 4.0 * (at > 0.5), runs=1).selected)
+
+
+def lasting_noise(rng: np.random.Generator, rows: int, lasts: float) -> Array:
+    """Of size one, forgotten over so many rows."""
+    kept, found = np.exp(-1 / lasts), np.zeros(rows)
+    for row in range(1, rows):
+        found[row] = kept * found[row - 1] + np.sqrt(1 - kept**2) * rng.normal()
+    return found
+
+
+@pytest.mark.parametrize(("lasts", "most"), [(4.0, 0), (20.0, 10)])
+def test_noise_that_lasts_is_no_drift_of_a_run(lasts: float, most: int) -> None:
+    """Of 40 joints with noise that lasts 20 of a run's 200 rows, 19 were told to drift."""
+    told = 0
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        left = np.concatenate([lasting_noise(rng, 200, lasts) for _ in range(3)])
+        runs = _Runs(
+            left, 20 * rng.normal(size=600), np.repeat(["a", "b", "c"], 200), np.tile(np.arange(200.0), 3), "N m"
+        )
+        told += bool(runs.told())
+    assert told <= most

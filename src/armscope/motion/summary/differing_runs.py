@@ -123,9 +123,12 @@ class _Runs:
         return _Difference(f"run: it reads {where}, against their median (as by {why})", power)
 
     def _over_time(self, left: Array) -> dict[int, _Difference]:
-        """Runs most of whose own residual is slow, by their numbers."""
-        found = {}
+        """Runs most of whose own residual is slow, by their numbers; not where that of the others lasts as long."""
+        found, lasts = {}, [autocorrelation_time(self.of_run[own], left[own]) for own in self.there]
         for n, own in enumerate(self.there):
+            of_others = float(np.median(lasts[:n] + lasts[n + 1 :]))
+            if np.count_nonzero(own) < DIFFERING.independent * DIFFERING.knots * of_others:
+                continue
             curve = hats(self.time[own], DIFFERING.knots)
             slow = curve @ np.linalg.lstsq(curve, left[own], rcond=None)[0]
             if np.mean(slow**2) > DIFFERING.slow * np.mean(left[own] ** 2):
