@@ -227,6 +227,7 @@ def mistaken(request, tmp_path):
     return tmp_path / "mistaken.csv", request.param
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mistaken", ONE_MISTAKE, indirect=True)
 def test_an_arm_that_does_not_explain_the_points_is_not_calibrated_unless_asked_for(mistaken, tmp_path):
     file, word = mistaken
@@ -276,6 +277,7 @@ def test_what_is_wrong_with_one_run_stands_in_the_verdict_too(tmp_path):
         assert words in told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "code"), [("clean", 0), ("one-effect", 10)])
 def test_the_exit_code_is_the_answer_only_where_asked_for(name, code, tmp_path):
     home = EXAMPLE.parent / name

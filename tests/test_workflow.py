@@ -56,6 +56,7 @@ def test_a_finished_run_has_nothing_to_do(finished):
     assert planned(finished) == set()
 
 
+@pytest.mark.long
 def test_a_swarm_setting_refits_but_does_not_measure_again(finished):
     rerun = planned(finished, "--config", "paper={swarm: {iterations: 50}}")
     assert "measure" not in rerun
@@ -102,6 +103,7 @@ def drawn(finished):
     return snakemake(finished, "all", "--rulegraph", "dot", "--config", "recordings_dir=nowhere")
 
 
+@pytest.mark.long
 def test_a_real_arm_that_is_not_there_is_skipped_with_a_reason(drawn):
     assert "is not there" in drawn
 
@@ -139,6 +141,7 @@ def test_no_job_of_a_cluster_is_shorter_than_its_start(profile):
     assert set(together.index[together < jobs_measured.START_S]) <= grows
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("table", "name"),
     # the campaign below has a third one, in a folder called four
@@ -151,6 +154,7 @@ def test_two_fleets_of_one_file_name_have_folders_of_their_own(finished, table, 
     assert f"/fleet/{name}/report.html" in snakemake(finished, "-n", "fleet", "--config", f"fleet={table}")
 
 
+@pytest.mark.long
 def test_the_campaign_asks_for_files_that_the_workflow_makes(finished):
     """It takes hours and is run by hand: a folder that is called otherwise must not end it midway."""
     table = finished / campaign.FLEET
@@ -172,6 +176,7 @@ def changed(finished):
     return snakemake(finished, "-n", "-p", *(f"results/small/{target}" for target in TARGETS), "--config", change)
 
 
+@pytest.mark.long
 def test_a_tolerance_measures_again(changed):
     assert {"measure", "fit"} <= jobs(changed)
 

@@ -211,6 +211,7 @@ def test_many_partners_are_told_by_the_frames_they_belong_to():
     assert Confounded("joint 6 d", (), 1.0).text() == "joint 6 d: hardly moves the tool"
 
 
+@pytest.mark.long
 def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp_path):
     from armscope.core.files import write_yaml
 

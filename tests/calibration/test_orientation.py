@@ -102,6 +102,7 @@ def test_each_kind_weighs_as_much_as_its_noise_allows(world):
     assert error(3e-5, 5e-2, True) < 1.1 * error(3e-5, 5e-2, False)
 
 
+@pytest.mark.long
 def test_orientations_are_left_out_where_they_make_positions_worse_and_this_is_said(world):
     arm, real, base, rng = world
     recordings = recorded(real, rng, poses(rng, 40, 6), base, 3e-4, 1e-5)

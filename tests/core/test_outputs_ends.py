@@ -163,6 +163,7 @@ def test_too_little_data_is_refused_at_once(tmp_path):
     assert "150 MB of data (ulimit -d); 200 are the least" in done.stderr
 
 
+@pytest.mark.long
 def test_a_reader_that_goes_away_costs_no_result(tmp_path):
     line = [
         "calibrate",

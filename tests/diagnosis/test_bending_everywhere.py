@@ -76,6 +76,7 @@ def found_beside_uneven_bearings(arm_name: str, seed: int) -> Diagnosis:
     return diagnose(truth.arm, measured(truth, seed), QUICK)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 1, 2, 3))
 def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(arm_name: str, seed: int) -> None:
     """Before they were allowed for, the base, D-H lengths and gears had names for them."""
@@ -104,6 +105,7 @@ def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should
     assert missed_mm(found.commands) < 0.1 * missed_mm(poses.motor_angles)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("arm_name", "softer"),
     [
@@ -121,6 +123,7 @@ def test_what_bends_far_more_than_the_rest_is_named(arm_name: str, softer: tuple
     assert softer in {(found.effect, found.location), *((a.effect, a.location) for a in found.alternatives)}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 3, 4, 7))
 def test_a_base_softer_than_what_bends_is_named_with_what_lies_beside_it_alone(arm_name: str, seed: int) -> None:
     """The background has the base about two axes, which took the name's place, or a gear's with it."""

@@ -131,6 +131,7 @@ def test_what_no_effect_explains_is_located_described_and_not_misnamed() -> None
     assert found.curve.at[np.argmax(found.curve.value)] == pytest.approx(0.2, abs=0.1)
 
 
+@pytest.mark.long
 def test_play_without_a_record_of_the_side_is_located_and_not_explained_by_chance() -> None:
     arm, table = planted("four-axis", {("backlash", "joint 2"): [6e-4]}, 120, 0.02, seed=30)
     verdict = diagnose(arm, replace(table, approach=None), QUICK)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.core.types import unheard
 from armscope.diagnosis.selection_loop import SelectionLoop
@@ -36,6 +37,7 @@ def rough_gears(rng: np.random.Generator) -> tuple[Arm, Recordings, FittedModel]
     return arm, table, FittedModel(arm, {"1": base}, (), tuple(waves))
 
 
+@pytest.mark.long
 def test_finer_waves_in_the_last_fit_predict_other_rows_better_and_change_no_name():
     rng = np.random.default_rng(11)
     arm, table, truth = rough_gears(rng)

@@ -49,6 +49,7 @@ def test_gravity_that_is_stated_rightly_stays_as_it_is() -> None:
     assert estimate_gravity_direction(fit_frames(upright, table), table, noise, False) is None
 
 
+@pytest.mark.long
 def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
     arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, 100, 3), {("joint_offset", "joint 3"): [1e-3]}, 0.02, seed=4)
@@ -57,6 +58,7 @@ def test_an_arm_that_does_not_give_way_tells_nothing_of_gravity() -> None:
     np.testing.assert_array_equal(verdict.model.arm.gravity, arm.gravity)
 
 
+@pytest.mark.long
 @pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not MA1400.is_dir(), reason=f"../shared/recordings/{MA1400.name} is not here")
@@ -75,6 +77,7 @@ def test_a_real_arm_on_a_wedge_tells_what_its_levelled_tracker_tells() -> None:
     assert np.degrees(apart) < 5
 
 
+@pytest.mark.long
 def test_an_arm_that_hangs_is_not_taken_for_one_that_stands() -> None:
     """Every moment is turned round: what gives way would have to do so against its load."""
     upright = arm_named("four-axis")

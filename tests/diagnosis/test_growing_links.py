@@ -53,6 +53,7 @@ def warmed_up() -> tuple[Arm, Recordings, Diagnosis]:
     return arm, table, diagnose(arm, table, QUICK)
 
 
+@pytest.mark.long
 def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() -> None:
     arm, _, verdict = warmed_up()
     assert verdict.effects == ()
@@ -68,6 +69,7 @@ def test_links_that_grow_with_the_hall_are_no_cause_and_foretell_a_warmer_day() 
     assert np.sqrt(np.mean(missed**2)) < 0.5 * np.sqrt(np.mean(as_cold**2))
 
 
+@pytest.mark.long
 def test_commands_for_the_temperature_of_the_day_take_the_growth_out() -> None:
     """The family's cure, as worded, by an arm whose growth is computed by hand."""
     arm, table, verdict = warmed_up()
@@ -86,6 +88,7 @@ def test_commands_for_the_temperature_of_the_day_take_the_growth_out() -> None:
     assert missed_mm(found.commands) < 0.01
 
 
+@pytest.mark.long
 def test_one_link_that_grows_by_itself_has_its_name() -> None:
     arm, table = session(np.array([0, 40e-6, 0, 0.0]))
     verdict = diagnose(arm, table, QUICK)

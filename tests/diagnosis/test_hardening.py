@@ -47,6 +47,7 @@ def wound(
     return arm, replace(table, positions=table.positions + moved)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arm", "seed"), arms_and_seeds("four-axis-modified", "seven-axis", 1, 2, 3))
 def test_drives_that_harden_are_not_told_as_play(arm: str, seed: int) -> None:
     """Most of it at the tool is the shoulder's, which may be named: as what gives way."""
@@ -57,6 +58,7 @@ def test_drives_that_harden_are_not_told_as_play(arm: str, seed: int) -> None:
     assert verdict.residual_after_mm < 1.1 * NOISE_MM
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arm", "seed"), arms_and_seeds("four-axis-modified", "seven-axis", 1, 2, 3))
 @pytest.mark.parametrize("turn", [pytest.param(0.0, marks=pytest.mark.long), 4e-5])
 def test_play_is_named_beside_drives_that_harden(turn: float, arm: str, seed: int) -> None:
@@ -66,6 +68,7 @@ def test_play_is_named_beside_drives_that_harden(turn: float, arm: str, seed: in
     assert abs(gap.value - 4e-4) < 3 * gap.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(seed: int) -> None:
     verdict = diagnose(*wound("seven-axis", {4: 2e-4}, seed), QUICK)

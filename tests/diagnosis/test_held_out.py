@@ -41,6 +41,7 @@ def test_held_out_errors_are_those_of_models_fitted_without_the_rows() -> None:
     assert 0 < last.spread_mm < 0.006
 
 
+@pytest.mark.long
 def test_bad_shots_stand_in_the_error_of_all_rows_only() -> None:
     arm, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-4]}, 100, 0.02, seed=8)
     table.positions[[4, 50, 77]] += np.array([3e-3, -4e-3, 2e-3])
@@ -72,6 +73,7 @@ def test_runs_at_the_same_poses_are_held_out_by_pose() -> None:
     assert split_rows(replace(own, motor_angles=angles), np.random.default_rng(0)).grouped_by == "run"
 
 
+@pytest.mark.long
 def test_a_run_held_out_whole_gets_a_base_of_its_own() -> None:
     """The bases of the runs lie metres apart: only a base fitted to the held-out rows can meet them."""
     arm = arm_named("four-axis")

@@ -89,6 +89,7 @@ def test_another_number_of_motors(clean: tuple[Arm, Recordings]) -> None:
         diagnose(arm_named("seven-axis"), table, QUICK)
 
 
+@pytest.mark.long
 def test_repeated_clipped_and_stuck_rows_are_left_out_and_told(clean: tuple[Arm, Recordings]) -> None:
     arm, table = clean
     repeated = table.rows(np.concatenate([np.arange(80), np.arange(10)]))
@@ -123,6 +124,7 @@ def test_a_table_without_masses_says_what_it_cannot_know() -> None:
     assert verdict.effects == ()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("wrong", ["mirrored", pytest.param("metres called millimetres", marks=pytest.mark.long)])
 def test_a_run_that_fits_nothing_is_no_matter_of_bad_shots(wrong: str) -> None:
     arm = arm_named("four-axis")
@@ -168,6 +170,7 @@ def test_a_diagnosis_keeps_the_table_as_it_was_used(clean: tuple[Arm, Recordings
     assert identified_on(arm, whole).domain.outside(far)[0] < identified_on(arm, used).domain.outside(far)[0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "mistake", ["mirrored", *(pytest.param(each, marks=pytest.mark.long) for each in ("inches", "joints exchanged"))]
 )

@@ -79,6 +79,7 @@ def test_a_value_beyond_what_arms_show_gives_way_to_a_name_that_says_the_same(jo
     assert more_plausible(loop.problem, loop.best, fit, loop._fitted) == (loop.best, fit)
 
 
+@pytest.mark.long
 def test_two_rows_that_are_wrong_by_the_same_are_named_though_each_moves_more_than_is_missed():
     """An offset that belongs to one row, stated on the next: each alone would move the tool by more than it misses."""
     arm = arm_named("parallelogram-120kg")

@@ -49,6 +49,7 @@ def verdicts() -> tuple[Diagnosis, Diagnosis, int]:
         return exact, diagnose(arm, table, QUICK), len(fits)
 
 
+@pytest.mark.long
 def test_the_verdict_is_that_of_passes_over_all_rows(verdicts: tuple[Diagnosis, Diagnosis, int]) -> None:
     exact, of_sums, fits = verdicts
     assert fits

@@ -68,6 +68,7 @@ def bent_spring(name: str, beyond: float, rows: int = 250) -> tuple[Arm, Recordi
     return arm, replace(table, positions=table.positions + moved)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["four-axis", pytest.param("six-axis", marks=pytest.mark.long)])
 def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_unknown(name: str) -> None:
     verdict = diagnose(*bent_spring(name, 0.5), QUICK)
@@ -78,11 +79,13 @@ def test_a_spring_that_is_nearly_straight_is_called_a_compliance_and_its_rest_un
     assert rest.driver == "load of joint 2"
 
 
+@pytest.mark.long
 def test_a_spring_that_is_far_from_straight_is_no_compliance() -> None:
     verdict = diagnose(*bent_spring("six-axis", 4.0, rows=120), QUICK)
     assert names(verdict) == {("unknown", "joint 2")}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "elsewhere",
     [
@@ -105,6 +108,7 @@ def test_a_zero_within_a_curve_gets_its_name(elsewhere: float) -> None:
     assert curve.rms_at_tool_mm < zero.rms_at_tool_mm / 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("uneven", "told"), [(0.2, True), (1.0, False)])
 def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: float, told: bool) -> None:
     """A gap of 1 mrad, and a part of it that changes with the angle; where that is all, there is no gap."""
@@ -121,6 +125,7 @@ def test_play_that_is_nearly_even_is_called_play_and_its_rest_unknown(uneven: fl
         assert found["unknown"].rms_at_tool_mm < found["backlash"].rms_at_tool_mm / 3
 
 
+@pytest.mark.long
 @pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not IIWA.is_dir(), reason=f"../shared/recordings/{IIWA.name} is not here")

@@ -94,6 +94,7 @@ def seen_from_one_side(table: Recordings, seed: int, bent: float) -> Recordings:
     return replace(table, orientation=(turns * Rotation.from_rotvec(error)).as_quat(scalar_first=True))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("seed", "bent"), [pytest.param(0, 0.0, marks=pytest.mark.long), (1, 1.5)])
 def test_what_goes_with_the_side_that_is_seen_is_the_instruments(seed: int, bent: float) -> None:
     """On a smooth path neighbouring attitudes err alike: that was told as up to eight jumps of the tool."""
@@ -115,6 +116,7 @@ def test_orientations_without_such_errors_have_none(with_turns: Diagnosis) -> No
     assert with_turns.orientations.instrument_mrad == 0
 
 
+@pytest.mark.long
 def test_what_hardly_moves_the_point_shows_in_the_turn() -> None:
     """The tool point lies nearly on the last axis: what its gear does is seen by orientations alone."""
     wave: Wanted = {("gear_eccentricity", "joint 6"): [1.2e-3, 0.0]}
@@ -142,6 +144,7 @@ def test_two_springs_about_parallel_axes_are_told_more_sharply_with_turns() -> N
         assert parameter.stderr < alone[location].stderr
 
 
+@pytest.mark.long
 def test_orientations_of_some_rows_only_are_used_where_they_are() -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
@@ -152,6 +155,7 @@ def test_orientations_of_some_rows_only_are_used_where_they_are() -> None:
     assert verdict.orientations.rows == 45
 
 
+@pytest.mark.long
 def test_wild_orientations_do_not_drag_the_model() -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
@@ -164,6 +168,7 @@ def test_wild_orientations_do_not_drag_the_model() -> None:
     assert abs(value.value - 4e-4) < 3 * value.stderr
 
 
+@pytest.mark.long
 def test_orientations_in_another_order_are_told_and_left_out(without_turns: Diagnosis) -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     assert table.orientation is not None
@@ -173,6 +178,7 @@ def test_orientations_in_another_order_are_told_and_left_out(without_turns: Diag
     assert verdict.effects[0].parameters == without_turns.effects[0].parameters
 
 
+@pytest.mark.long
 def test_positions_can_be_asked_for_alone(without_turns: Diagnosis) -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]})
     asked = diagnose(arm, table, replace(QUICK, orientation=False))
@@ -180,6 +186,7 @@ def test_positions_can_be_asked_for_alone(without_turns: Diagnosis) -> None:
     assert asked.effects[0].parameters == without_turns.effects[0].parameters
 
 
+@pytest.mark.long
 def test_a_tool_put_on_again_turned_is_free_in_every_run() -> None:
     """Its point is where it was: only the orientations show it."""
     arm = arm_named("four-axis")
@@ -196,6 +203,7 @@ def test_a_tool_put_on_again_turned_is_free_in_every_run() -> None:
     assert names(verdict) == {("joint_offset", "joint 3")}
 
 
+@pytest.mark.long
 def test_a_tool_that_turned_on_the_flange_in_between_is_found_with_its_row() -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [4e-4]}, rows=200)
     assert table.orientation is not None

@@ -225,6 +225,7 @@ def test_a_jump_of_the_base_is_found_with_its_row_whatever_ids_are(ids: str) -> 
     assert 0.2 < row.stderr < 3
 
 
+@pytest.mark.long
 def test_a_faint_jump_has_a_wide_interval() -> None:
     arm, table = planted("four-axis", {}, 120, 0.02, seed=14)
     spreads = []
@@ -254,6 +255,7 @@ def test_a_long_table_is_sampled_and_then_weighed_whole(monkeypatch: pytest.Monk
     assert len(verdict.residuals.after) == 400
 
 
+@pytest.mark.long
 def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> None:
     arm = arm_named("four-axis")
     table = replace(one_run(arm, 90, 16), run=np.repeat(["1", "2", "3"], 30))
@@ -268,6 +270,7 @@ def test_what_carries_over_between_runs_is_said_and_what_does_not_is_too() -> No
     assert "different values" in found.carries_over
 
 
+@pytest.mark.long
 def test_what_carries_over_between_payloads_and_halves_of_the_workspace_is_said() -> None:
     arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
     table = replace(table, payload=np.repeat([0.0, 4.0, 8.0], 50))
@@ -277,6 +280,7 @@ def test_what_carries_over_between_payloads_and_halves_of_the_workspace_is_said(
     assert "2 halves of the workspace alone gives the same value" in found.carries_over
 
 
+@pytest.mark.long
 def test_a_cause_that_differs_between_near_and_far_is_said_to() -> None:
     arm, table = planted("six-axis", {("joint_compliance", "joint 2"): [5e-7]}, 120, 0.02, seed=16)
     other = recorded(arm, table, {("joint_compliance", "joint 2"): [6e-7]}, 0.02, seed=17)

@@ -18,6 +18,7 @@ from .planted import one_run, recorded
 VALIDATED = Settings(resamples=0)
 
 
+@pytest.mark.long
 def test_the_nominal_arm_is_placed_by_its_points_where_orientations_were_measured_too() -> None:
     """A zero that turns the tool by 20 mrad drags a base that orientations place, too, millimetres away."""
     arm = arm_named("six-axis")

@@ -15,6 +15,7 @@ from .numpy_arms import ROWS, UR5E, said, still
 JUMP_M = np.array([3e-3, -2e-3, 2e-3])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_base_that_jumped_far_and_early_is_named_not_listed_as_bad_shots(seed: int) -> None:
     def early(points: Array, row: Array) -> None:

@@ -75,6 +75,7 @@ def test_a_slow_wander_is_background_and_no_jump(wandered: Diagnosis) -> None:
     assert next(cause for cause in verdict.causes if cause.family == "drift").cure.startswith("Fasten the instrument")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("link", seeds(2, 4))
 def test_a_link_that_warms_up_by_itself_is_told_as_that_and_no_loose_base(link: int) -> None:
     """What was bolted down was to be fastened, and the error stayed."""
@@ -93,6 +94,7 @@ def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:
     assert drift_of(verdict) == pytest.approx(0.028, rel=0.2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("in_order", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_a_wander_that_is_surely_seen_stays_though_poses_came_in_order(in_order: bool) -> None:
     """Along the order of rows a wander says nothing of other rows: only what is barely seen must foretell better."""
@@ -128,6 +130,7 @@ def test_a_jump_keeps_its_name_beside_a_wander() -> None:
     assert moment == pytest.approx(table.time[60], abs=400)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("in_step", [True, False])
 def test_growth_with_a_temperature_that_rises_with_time_may_be_a_drift(in_step: bool) -> None:
     arm, table = session(

@@ -77,6 +77,7 @@ def test_where_there_is_only_noise_the_covariance_is_the_fits_own() -> None:
     assert np.max(wider) < 1.5  # a drift is what a small wander, which nobody can rule out, looks like
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "kind",
     # where nothing errs, the covariance is the fit's own: see above
@@ -157,6 +158,7 @@ def test_a_long_table_is_told_from_some_of_its_rows_as_from_all(monkeypatch: pyt
     assert np.all(np.abs(np.log(some / whole)) < 0.4)
 
 
+@pytest.mark.long
 def test_a_verdict_says_so_and_widens_its_intervals() -> None:
     arm, table = planted("six-axis", {COUPLING: [1e-3]}, 150, NOISE_MM, seed=47)
     quick = Settings(resamples=0, cross_validation=False)

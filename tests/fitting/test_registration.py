@@ -61,12 +61,14 @@ def two_runs(shift_mm: list[float]) -> tuple[Arm, Recordings]:
     return arm, joined(tables[0], replace(tables[1], positions=moved))
 
 
+@pytest.mark.long
 def test_a_tool_that_was_exchanged_between_runs_is_free_in_each_and_hides_nothing() -> None:
     verdict = diagnose(*two_runs([20.0, -5.0, 35.0]), QUICK)
     assert [(e.effect, e.location, e.minor) for e in verdict.effects] == [("joint_compliance", "joint 2", False)]
     assert "tool exchanged" in {notice.kind for notice in verdict.notices}
 
 
+@pytest.mark.long
 def test_a_tool_point_that_moved_a_little_between_runs_is_found_at_the_run() -> None:
     verdict = diagnose(*two_runs([0.0, 0.3, -0.2]), QUICK)
     found = {effect.effect: effect for effect in verdict.effects}
@@ -105,6 +107,7 @@ def test_a_real_set_up_that_changed_twice_is_found_with_its_rows_and_its_bad_sho
     assert all(a.evidence_gap_nats >= 0 for effect in verdict.effects for a in effect.alternatives)
 
 
+@pytest.mark.long
 @pytest.mark.long
 @pytest.mark.shared
 @pytest.mark.skipif(not IRB120.is_dir(), reason=f"../shared/recordings/{IRB120.name} is not here")

@@ -125,6 +125,7 @@ def test_a_base_that_was_set_up_anew_is_said_but_not_named() -> None:
     assert "set up anew" in {notice.kind for notice in verdict.notices}
 
 
+@pytest.mark.long
 def test_a_jump_within_a_run_lasts_through_the_runs_after_it() -> None:
     arm, table = three_runs({})
     table.positions[60:] += [3e-4, -2e-4, 1e-4]
@@ -134,6 +135,7 @@ def test_a_jump_within_a_run_lasts_through_the_runs_after_it() -> None:
     assert row.value == pytest.approx(61, abs=2)
 
 
+@pytest.mark.long
 def test_the_model_keeps_where_each_run_stands(tmp_path) -> None:
     """Also as a file; a run that it does not know stands where the last one stands."""
     both = ([0.3, -0.3, 0.2], [0.1, 0.0, 0.0])

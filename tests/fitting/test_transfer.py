@@ -43,6 +43,7 @@ def other(learned: tuple[Arm, FittedModel]) -> Recordings:
     return recorded(learned[0], table, ARMS, NOISE, seed=8, far=True)
 
 
+@pytest.mark.long
 def test_what_belongs_to_the_arm_is_applied_and_what_belongs_to_the_run_is_not(
     learned: tuple[Arm, FittedModel], other: Recordings
 ) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from armscope.diagnosis import Settings
 from armscope.fleet.diagnosing import FAILURE, diagnose_members
 from armscope.fleet.members import Member
@@ -13,6 +15,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "clean"
 QUICK = Settings(resamples=0, cross_validation=False)
 
 
+@pytest.mark.long
 def test_one_bad_table_leaves_the_others_their_verdicts(tmp_path: Path) -> None:
     good = Member("good", "six-axis", EXAMPLE / "robot.yaml", EXAMPLE / "recordings.csv")
     gone = Member("gone", "six-axis", EXAMPLE / "robot.yaml", tmp_path / "nothing.csv")

@@ -12,6 +12,7 @@ from scipy.stats import norm
 EXAMPLE = Path(__file__).parents[2] / "examples" / "one-effect"
 
 
+@pytest.mark.long
 def test_the_atlas_is_timed_inside_the_diagnosis():
     found = measure(EXAMPLE, 0)
     (whole,), (atlas,) = found["cpu"], found["atlas"]

@@ -105,6 +105,7 @@ def tracked(seed: int, near: float, slope: float, wanted: dict[tuple[str, str], 
 STIFFNESS = {("joint_compliance", "joint 2"): [2e-7]}
 
 
+@pytest.mark.long
 def test_noise_that_grows_with_distance_is_found_and_its_rows_count_less() -> None:
     table = tracked(11, 0.004, 0.02, STIFFNESS)
     verdict = diagnose(arm_named("four-axis"), table, QUICK)

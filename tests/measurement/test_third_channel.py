@@ -206,6 +206,7 @@ def test_a_payload_error_is_told_more_narrowly_with_torques() -> None:
     assert widths[1] < 0.7 * widths[0]
 
 
+@pytest.mark.long
 def test_a_true_arm_with_torques_misses_nothing() -> None:
     arm = arm_named("four-axis")
     table = recorded(arm, one_run(arm, ROWS, 15), {}, POINT_MM, 16)

@@ -75,6 +75,7 @@ def test_the_model_file_holds_it_and_a_prediction_elsewhere_says_that_it_does_no
     assert any("from 12.4" in note and "payload_kg" in note for note in notes)
 
 
+@pytest.mark.long
 def test_the_cure_done_as_worded_leaves_no_load_that_changes(picked_up: tuple[World, MotionDiagnosis, Motions]) -> None:
     """`payload_kg` from the moment on, and `tool_mm`, both read from the card's words."""
     world, found, motions = picked_up
@@ -111,6 +112,7 @@ def test_no_mass_below_what_was_there_is_put_down(picked_up: tuple[World, Motion
     assert number not in tenable(opposite, 250.0).best.candidates
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(4, 5, 6))
 def test_of_several_runs_the_one_in_which_it_changes_is_told(seed: int) -> None:
     world = World("between", 3 + seed % 4, seed, runs=3)
@@ -121,6 +123,7 @@ def test_of_several_runs_the_one_in_which_it_changes_is_told(seed: int) -> None:
     assert found.verdict.held_out.what.endswith("run 3, of whose own load no other run knows")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(8, 2, 3, 5))
 def test_a_load_that_comes_and_goes_is_one_cause_with_all_its_moments(seed: int) -> None:
     world = World("several", 3 + seed % 4, seed, runs=1 + 2 * (seed // 4 % 2))

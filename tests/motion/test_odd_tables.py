@@ -121,6 +121,7 @@ def test_nothing_missing_says_how_coarsely_the_torque_was_recorded() -> None:
     assert "tau1_nm" not in verdict.headline
 
 
+@pytest.mark.long
 def test_a_run_in_which_nothing_moves_takes_no_part() -> None:
     """Held out, or all that is left where another is, it has no row that tells anything."""
     motion = table(robot(), 3)

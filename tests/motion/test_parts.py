@@ -78,6 +78,7 @@ def test_a_gap_parts_a_run_and_runs_of_other_rates_are_laid_on_one_grid() -> Non
     assert {stretch.rate for stretch in found} == {100.0}  # of a run, not between them
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "kept", [np.r_[0:3000, 3000:6000:2], pytest.param(np.r_[0:6000, 6000:9000:2], marks=pytest.mark.long)]
 )

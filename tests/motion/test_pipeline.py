@@ -78,6 +78,7 @@ def test_a_drive_that_gives_way_is_found_from_its_motors_encoder_alone(joint: in
     assert "mrad per N m" in found.verdict.headline
 
 
+@pytest.mark.long
 def test_no_drive_gives_way_against_its_torque() -> None:
     """By as much as is named from one run where it is the right way round."""
     motions = as_motions(behind_its_drive(robot(), 1, -0.75e-3), "motions.csv", 3)

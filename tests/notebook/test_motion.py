@@ -27,6 +27,7 @@ def test_it_is_told_from_a_table_of_points():
     assert not of_motion(None)
 
 
+@pytest.mark.long
 def test_a_paragraph_and_a_table_say_the_same_causes(found):
     assert isinstance(found, MotionDiagnosed)
     assert "\n" not in repr(found)

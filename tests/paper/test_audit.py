@@ -16,6 +16,7 @@ def table():
     return audit(SMALL)
 
 
+@pytest.mark.long
 def test_every_cell_of_the_printed_cartesian_models_is_audited(table):
     tests = table[table["trajectory"] != "identification"]
     assert len(tests) == 3 * 2 * (3 * 3 + 1)
@@ -49,6 +50,7 @@ def test_a_gap_by_hand(table):
     assert row["allowed_high_mm"] == pytest.approx(2.0 + 1.0 + 0.1 + rounding, abs=0.05)
 
 
+@pytest.mark.long
 def test_numbers_that_agree_are_not_accused(monkeypatch):
     """A table computed from the equations themselves on one of the scanned paths, with errors that are left."""
     import sys

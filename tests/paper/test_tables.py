@@ -132,6 +132,7 @@ def extended(study):
     return outlook(study.measurements)
 
 
+@pytest.mark.long
 def test_plain_models_of_the_outlook_are_least_squares(residuals, extended):
     found = cell(extended, robot="ensemble 2", model="SDP(CI)", kind="sums", trajectory="test 2")
     keys = {"robot": "ensemble 2", "model": "SDP(CI)", "trajectory": "test 2", "axis": "3D"}

@@ -80,6 +80,7 @@ def test_columns_are_the_slope_of_the_exact_model(name: str) -> None:
     assert seen == expected
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name",
     ["parallelogram-120kg", *(pytest.param(name, marks=pytest.mark.long) for name in ("seven-axis", "six-axis"))],

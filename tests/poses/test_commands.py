@@ -16,6 +16,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["poses", "--robot", str(ROBOT), *map(str, arguments)])
 
 
+@pytest.mark.long
 def test_it_writes_poses_of_the_contract_and_says_what_they_are_worth(tmp_path):
     path = tmp_path / "poses.csv"
     result = run("-n", 20, "-o", path, "--tracker", "4000,0,1500", "--floor-mm", 0, *FEW)

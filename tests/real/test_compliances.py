@@ -67,6 +67,7 @@ def test_masses_are_as_heavy_as_the_torques_say_whatever_is_carried(runs):
         assert np.sqrt(np.mean((clean - each.torque) ** 2)) < 0.015 * np.abs(each.torque).max()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("arms", [2, pytest.param(4, marks=pytest.mark.long)])
 def test_one_arm_agrees_with_itself_and_a_softer_one_does_not(runs, arms):
     arm, everywhere, two = runs
@@ -128,6 +129,7 @@ def test_a_combination_is_told_by_its_largest_weights():
     assert agreement_in_words(direction, 3) == "bearing 2 - 0.5 drive 2"
 
 
+@pytest.mark.long
 def test_tables_hold_every_run_and_every_pair(runs):
     arm, everywhere, two = runs
     rng = np.random.default_rng(7)

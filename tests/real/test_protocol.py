@@ -48,6 +48,7 @@ def test_a_known_arm_is_predicted_to_its_noise(measured):
     assert {"joint 2", "joint 3", "joint 5"} <= set(found.names["location"])
 
 
+@pytest.mark.long
 def test_orientations_are_learned_from_in_a_row_of_its_own():
     run = ReferenceRun(name="one", run="one", splits=2, figures_mm={"nominal": (1.5, 0.1)})
     rows = recordings(table(60, 0.3, error_rad=offsets, turn_noise_rad=1e-4))

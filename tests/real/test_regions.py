@@ -42,6 +42,7 @@ def found():
     return measure_regions(arm(), as_recordings(table(120, NOISE_MM, error_rad=offsets), "made up", 6), RUN)
 
 
+@pytest.mark.long
 def test_known_physics_holds_where_nobody_measured(found):
     assert list(found.columns) == list(COLUMNS)
     assert found["region"].nunique() == 4

@@ -44,6 +44,7 @@ def fetch(checkout):
     return run.returncode, run.stdout + run.stderr
 
 
+@pytest.mark.long
 def test_one_wrong_file_costs_nothing_that_is_whole_and_what_is_kept_aside_is_not_imported(checkout):
     (checkout / "local" / "tiny" / "raw" / "b.csv").write_bytes(b"something else")
     code, printed = fetch(checkout)

@@ -1,6 +1,7 @@
 """The audit in one sentence, and the printed cells that it marks."""
 
 import pandas as pd
+import pytest
 
 from armscope.paper.audit import AuditScope, audit
 from armscope.report.text.audit import audit_sentence, contradictions
@@ -8,6 +9,7 @@ from armscope.report.text.audit import audit_sentence, contradictions
 QUICK = AuditScope(rises=tuple(range(-1500, 1501, 300)), corner_samples=128, search_generations=5)
 
 
+@pytest.mark.long
 def test_no_path_makes_the_printed_numbers_agree():
     table = audit(QUICK)
     assert audit_sentence(table).startswith(

@@ -100,6 +100,7 @@ def test_hostile_names_are_shown_and_never_obeyed(tmp_path):
     assert page.text.count(EVIL) > 5
 
 
+@pytest.mark.long
 def test_the_same_input_gives_the_same_bytes_and_no_file_of_an_earlier_run_stays(tmp_path):
     import pandas as pd
 

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from armscope.diagnosis import Settings
 from armscope.fleet.diagnosing import FAILURE, diagnose_members
 from armscope.fleet.members import read_fleet
@@ -11,6 +13,7 @@ from armscope.report.figures.fleet import fleet_figure
 from armscope.report.pages.fleet import write_fleet_page
 
 
+@pytest.mark.long
 def test_diagnoses_of_a_simulated_fleet_end_in_one_page(tmp_path):
     simulate(2, 1, Path("config/robots"), tmp_path / "made")
     table = tmp_path / "made" / "fleet.csv"

@@ -106,6 +106,7 @@ def pages(tmp_path_factory):
     return found
 
 
+@pytest.mark.long
 def test_pages_of_motions_and_fleets_run_nothing_that_a_name_holds(pages):
     for name, html in pages.items():
         page = parsed(html)

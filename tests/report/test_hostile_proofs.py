@@ -41,6 +41,7 @@ def hostile(world, name):
     return replace(world, truth=truth, answer=replace(answer, failed=answer.failed and f"ValueError: {EVIL}"))
 
 
+@pytest.mark.long
 def test_the_page_of_the_proof(tmp_path):
     made = [hostile(each, f"{EVIL}{n}") for n, each in enumerate(worlds(12))]
     for name, table in rates_of_proof(score_of_proof(made)).items():

@@ -142,6 +142,7 @@ def many_tasks(found: MotionDiagnosis, close: Alternative) -> MotionDiagnosis:
     return replace(found, verdict=verdict, entered=(*entered[:2], *entered[2:3] * wanted))
 
 
+@pytest.mark.long
 def test_the_command_that_is_printed_runs_as_it_is(
     found: MotionDiagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -132,6 +132,7 @@ def test_targets_made_by_the_arm_itself_are_reached():
         assert np.abs(forward_kinematics(arm, found.motor_angles) - target).max() < 1e-8
 
 
+@pytest.mark.long
 def test_ten_thousand_points_are_reached_every_one(arm):
     path = line([1.2, -0.6, 0.6], [1.4, 0.5, 1.2], 10_000)
     found = follow_path(arm, path, HOME, HELD)

@@ -64,6 +64,7 @@ def test_all_context_is_read_as_what_it_was_in_the_session(tmp_path):
         assert np.abs(read_back - was[arm.recorded]).max() <= within
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arm", ["parallelogram-120kg", *(pytest.param(arm, marks=pytest.mark.long) for arm in ("six-axis", "seven-axis"))]
 )
@@ -105,6 +106,7 @@ def test_each_effect_is_as_strong_as_wished(tmp_path):
     assert sizes == sorted(sizes, reverse=True)
 
 
+@pytest.mark.long
 def test_the_same_displacement_is_not_concealed_twice(tmp_path):
     """On this arm a tilting base and a tilting first bearing are one; the second one is left out."""
     tilts = [

@@ -17,6 +17,7 @@ from armscope.robot.parallelogram import Linkage, forearm_deviation
 from tests.diagnosis.planted import planted
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("direction", [88.4, pytest.param(91.6, marks=pytest.mark.long)])
 def test_bars_in_error_are_all_that_is_told_whichever_way_the_rocker_points(direction: float) -> None:
     """Half a coarse step away a slope is left that passes for a ratio and a coupling of the joint."""

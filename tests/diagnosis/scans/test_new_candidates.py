@@ -67,6 +67,7 @@ def test_the_planted_line_and_the_planted_jump_are_found_once_and_not_again_when
     assert not {(placed.key, placed.variant) for placed in scanned(loop)} & set(names)
 
 
+@pytest.mark.long
 def test_a_fine_line_that_no_round_scanned_for_is_found_once_all_else_is_known(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -54,6 +54,7 @@ def test_a_zero_that_jumps_is_named_with_its_size_and_moment(
     assert verdict.noise_mm < 1.1 * 1e3 * NOISE_M, "nothing of the step is left"
 
 
+@pytest.mark.long
 def test_its_moment_is_a_row_where_no_time_was_recorded() -> None:
     verdict = said(WITHOUT_WRIST, jumped(3, 1e-3), seed=11)
     (found,) = (e for e in verdict.effects if e.effect == "zero_shift")
@@ -61,6 +62,7 @@ def test_its_moment_is_a_row_where_no_time_was_recorded() -> None:
     assert abs(found.parameters[-1].value - (JUMPS_AT + 1)) <= 1
 
 
+@pytest.mark.long
 def test_a_zero_set_anew_between_two_runs_is_named_with_the_runs() -> None:
     run = np.where(np.arange(ROWS) < JUMPS_AT, "monday", "tuesday")
     verdict = said(WITHOUT_WRIST, jumped(3, 1e-3), seed=12, run=run)
@@ -69,6 +71,7 @@ def test_a_zero_set_anew_between_two_runs_is_named_with_the_runs() -> None:
     ]
 
 
+@pytest.mark.long
 def test_a_zero_that_creeps_is_no_jump() -> None:
     def creeps(angles: Array, row: Array) -> None:
         angles[:, 2] += 1e-3 * row / ROWS

@@ -33,6 +33,7 @@ from tests.diagnosis.test_better_placed import (
 from tests.seeds import seeds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(6, 7))
 def test_what_got_its_name_out_of_a_background_has_rivals_too(seed: int) -> None:
     """An upright first bearing and the second drive turn a seven-axis arm alike where loads are alike."""

@@ -41,6 +41,7 @@ def with_wave_of_joint_2(lifts_nm: float, ahead: float) -> tuple[Arm, Recordings
     return arm, replace(still, positions=still.positions + lever * turn[:, None])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("lifts_nm", [300.0, pytest.param(600.0, marks=pytest.mark.long)])
 def test_a_spring_that_nobody_stated_may_be_one(lifts_nm: float) -> None:
     wave = wave_found(*with_wave_of_joint_2(lifts_nm, ahead=0.0))
@@ -50,6 +51,7 @@ def test_a_spring_that_nobody_stated_may_be_one(lifts_nm: float) -> None:
     assert wave.confirm.startswith("See first whether a spring")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "ahead", [np.pi, *(pytest.param(turn, marks=pytest.mark.long) for turn in (np.pi / 2, -np.pi / 2))]
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from armscope.diagnosis import Settings, diagnose
 from armscope.verdict.schema import Verdict
 from tests.diagnosis.planted import planted
@@ -26,6 +28,7 @@ def test_one_effect_is_one_cause_with_its_own_cure() -> None:
     assert abs(cause.held_out_gain_mm - (verdict.residual_before_mm - verdict.noise_mm)) < 0.1 * cause.held_out_gain_mm
 
 
+@pytest.mark.long
 def test_drives_that_give_way_are_one_cause_with_the_largest_first() -> None:
     verdict = verdict_on({("joint_compliance", "joint 2"): [1e-6], ("joint_compliance", "joint 3"): [2e-6]})
     (cause,) = verdict.causes
@@ -35,6 +38,7 @@ def test_drives_that_give_way_are_one_cause_with_the_largest_first() -> None:
     assert len(cause.members) == 2
 
 
+@pytest.mark.long
 def test_what_has_different_cures_is_several_causes() -> None:
     wanted = {("joint_compliance", "joint 3"): [2e-6], ("gear_ratio", "joint 1"): [2e-4]}
     verdict = verdict_on(wanted)

@@ -50,6 +50,7 @@ def test_its_interval_owns_what_springs_elsewhere_might_do(monkeypatch: pytest.M
     assert owned.parameters[0].stderr > 2 * sure.parameters[0].stderr
 
 
+@pytest.mark.long
 def test_where_the_rows_tell_them_apart_it_stays_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     arm, table = planted("four-axis", {("joint_compliance", "joint 2"): [5e-7]}, 150, 0.02, seed=16)
     (owned,) = diagnose(arm, table, QUICK).effects

@@ -32,6 +32,7 @@ def said_of_rounding(verdict: Diagnosis) -> list[str]:
     return [notice.text for notice in verdict.notices if notice.kind == "rounded angles"]
 
 
+@pytest.mark.long
 def test_rounding_is_noise_of_known_size_and_no_scatter_of_a_joint(arm: Arm) -> None:
     _, table = planted("four-axis", {}, 150, NOISE_MM, seed=8)
     verdict = diagnose(arm, rounded(table), QUICK)
@@ -53,6 +54,7 @@ def test_poses_commanded_in_round_numbers_have_no_such_noise(arm: Arm) -> None:
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.15)
 
 
+@pytest.mark.long
 def test_a_cause_is_named_behind_rounding_and_a_joint_that_scatters_beside_it(arm: Arm) -> None:
     _, table = planted("four-axis", {("joint_offset", "joint 3"): [3e-3]}, 150, NOISE_MM, seed=9)
     assert [(e.effect, e.location) for e in diagnose(arm, rounded(table), QUICK).effects] == [

@@ -55,6 +55,7 @@ def ahead_of_readings(arm: Arm) -> Diagnosis:
     return diagnose(arm, with_play(arm, -GAP, 30), QUICK)
 
 
+@pytest.mark.long
 def test_play_is_sized_by_the_order_of_rows(without_sides: Diagnosis) -> None:
     value, stderr = told(without_sides)["play"]
     assert abs(value - GAP) < 3 * stderr
@@ -81,6 +82,7 @@ def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(
     assert gap.value == pytest.approx(GAP, rel=0.1)
 
 
+@pytest.mark.long
 def test_play_is_not_told_where_the_order_of_rows_shows_none(arm: Arm, ahead_of_readings: Diagnosis) -> None:
     """Rows that somebody sorted say nothing; a joint that stands ahead of its reading has no play."""
     table = with_play(arm, GAP, 30)

@@ -21,6 +21,7 @@ def geometry_of(link_2: float) -> Background:
     return next(family for family in verdict.background_families if family.family == "geometric")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("times", "worst"), [(2.5, "link 2"), (1.0, "")])
 def test_the_worst_place_of_a_family_is_told_where_there_is_one(times: float, worst: str) -> None:
     family = geometry_of(times)

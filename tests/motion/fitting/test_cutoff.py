@@ -48,6 +48,7 @@ def test_each_run_is_low_passed_where_its_own_motion_ends(monkeypatch: pytest.Mo
     assert not alone.of_runs
 
 
+@pytest.mark.long
 def test_positions_noise_costs_little_beside_the_torques_own(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(moving, "path", faster(3))
     recorded, rng = table(robot(), 3, noise=NOISE, seconds=15.0), np.random.default_rng(1)

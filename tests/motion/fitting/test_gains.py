@@ -51,6 +51,7 @@ def at(selected: SelectedCauses, gain: Array) -> SelectedCauses:
     return weighed_anew(replace(selected.rows, gain=gain), selected)
 
 
+@pytest.mark.long
 def test_the_fitted_gain_taken_as_it_is_swings_ever_farther(start: SelectedCauses) -> None:
     """Else the next test shows nothing."""
     assert apart(at(start, fitted(start))) > apart(start) > 1

@@ -27,6 +27,7 @@ def asked(kind: str, n: int, seed: int) -> tuple[World, MotionDiagnosis]:
     return world, diagnose_motion(arm, as_motions(world.recorded(), "motions.csv", world.n))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [*(pytest.param(kind, marks=pytest.mark.long) for kind in ("even", "near")), "over"])
 @pytest.mark.parametrize("seed", seeds(4, 1, 2, 3))
 def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> None:

@@ -64,6 +64,7 @@ def rows_of(table: pd.DataFrame, cutoff: float = 15.0) -> MotionRows:
     return build_rows(layout, laid, preparation(RATE, cutoff, "test"), stated_model(robot()))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_what_friction_does_in_pauses_names_nothing(seed: int) -> None:
     verdict = diagnose_motion(robot(), as_motions(from_point_to_point(seed, 0.6), "motions.csv", 3)).verdict

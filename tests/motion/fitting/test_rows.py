@@ -39,6 +39,7 @@ def rubbing_with_the_load(q: Array, dq: Array, ddq: Array, rigid: Array) -> Arra
     return PER_LOAD * np.abs(rigid) * np.sign(dq) * [0, 1, 1]
 
 
+@pytest.mark.long
 def test_a_spring_behind_a_wrong_gain_has_its_own_stiffness() -> None:
     stated = [{"rotor_inertia_kg_m2": r, "coulomb_nm": c, "viscous_nm_s_rad": v}
               for r, c, v in zip(ROTOR, COULOMB, VISCOUS, strict=True)]  # fmt: skip
@@ -102,6 +103,7 @@ def test_rows_of_another_model_are_those_formed_anew() -> None:
         assert np.abs(kept.columns[j] - first.columns[j]).max() > 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 4))
 def test_friction_behind_gains_and_masses_that_are_off_has_its_own_size(seed: int) -> None:
     rng = np.random.default_rng(seed)

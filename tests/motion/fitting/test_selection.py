@@ -20,6 +20,7 @@ def cable(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_slow_cause_of_a_short_motion_is_no_noise(seed: int) -> None:
     """It counted for so few rows, as what it left of other motion lasted, that nothing asked for a cause."""
@@ -45,6 +46,7 @@ def test_at_each_joint_those_weights_count_of_which_less_lasts() -> None:
     assert np.array_equal(better.row[:, 1:], one.row[:, 1:])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("bend", "name"), [(0.005, "motor_constant"), (0.05, "unknown")])
 def test_a_gain_that_bends_next_to_nothing_is_a_gain(bend: float, name: str) -> None:
     """A law that holds the gain and a little more fitted better, and what everybody calls a gain was unknown."""

@@ -205,6 +205,7 @@ def test_who_does_what_the_card_says_has_the_torque(kind: str) -> None:
     assert left(case.truth, case.read(cause.cure), SEED) < 0.04
 
 
+@pytest.mark.long
 def test_a_link_that_lags_as_the_card_says_needs_the_torque() -> None:
     arm, c = robot(), 5e-4
     table = behind_its_drive(arm, JOINT, c, noise=NOISE)

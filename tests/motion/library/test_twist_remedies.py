@@ -88,6 +88,7 @@ def found(behind: str, planted: Callable[[pd.DataFrame], pd.DataFrame]) -> Motio
     return diagnose_motion(robot(), as_motions(planted(recorded(behind, 1)), "motions.csv", 3))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [*CASES])
 def test_who_does_what_the_card_says_has_the_link_where_its_motor_is(kind: str) -> None:
     behind, planted, read = CASES[kind]

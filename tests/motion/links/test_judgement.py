@@ -17,6 +17,7 @@ def found() -> MotionDiagnosis:
     return wound_up()
 
 
+@pytest.mark.long
 def test_a_stiffness_is_known_no_better_than_the_torque(found: MotionDiagnosis) -> None:
     (twist,) = found.twists
     sure, unsure = (JudgedTwist(twist.selected, share, twist.side).fitted[1] for share in (0.0, 0.1))

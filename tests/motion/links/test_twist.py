@@ -26,6 +26,7 @@ SPRINGS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("joint", "stiffness", "seed"), SPRINGS)
 def test_a_spring_between_two_inertias_is_found_with_its_stiffness(joint: int, stiffness: float, seed: int) -> None:
     found = said_of(spring(stiffness), joint, seed)
@@ -64,6 +65,7 @@ def test_zeros_that_differ_are_an_offset_and_no_cause(rigid: MotionDiagnosis) ->
     assert not side.causes
 
 
+@pytest.mark.long
 def test_a_play_is_no_spring() -> None:
     (cause,) = named(said_of(play(1e-3), 1))
     assert cause.effect == "joint_play"
@@ -71,6 +73,7 @@ def test_a_play_is_no_spring() -> None:
     assert low < 1e-3 < high
 
 
+@pytest.mark.long
 def test_a_link_read_late_and_geared_otherwise_winds_up_nowhere() -> None:
     table = recorded(RIGID, 1)
     for _, run in table.groupby("run"):

@@ -65,6 +65,7 @@ def every_cause() -> MotionModel:
     )
 
 
+@pytest.mark.long
 def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tmp_path: Path) -> None:
     save_motion_model(tmp_path / "model.yaml", found.model)
     motions = moved(robot(), 4, loaded, seconds=15.0)

@@ -61,6 +61,7 @@ def test_joint_first_row_and_number_of_jumps_are_told(whole: pd.DataFrame) -> No
     assert f"q3 jumps by a whole turn {len(jumps)} times, first in row {jumps[0] + 3}" in text
 
 
+@pytest.mark.long
 def test_check_says_no_more_than_that_and_diagnose_the_same_as_of_the_whole_angle(whole: pd.DataFrame) -> None:
     wrapped = read(whole.assign(q3_rad=within(whole["q3_rad"].to_numpy())))
     told = check_moving(wrapped, robot()).suspicions

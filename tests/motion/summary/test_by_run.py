@@ -36,6 +36,7 @@ def diagnosed(plant: Plant | None, temperature: bool = False) -> MotionDiagnosis
     return diagnose_motion(robot(), motions, MotionSettings(cutoff=10.0))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("dry", "follows"), [(False, "speed"), (True, "direction")])
 def test_friction_that_differs_by_run_is_told_at_its_joint(dry: bool, follows: str) -> None:
     verdict = diagnosed(warming(iter([0.6, 0.0, -0.6]), dry)).verdict

@@ -29,6 +29,7 @@ def number_of(found: MotionDiagnosis) -> int:
     return number
 
 
+@pytest.mark.long
 def test_a_size_that_no_two_paths_tell_is_undetermined(gives_way: MotionDiagnosis) -> None:
     number = number_of(gives_way)
     alone = np.array([1.0, 1.1]), np.array([0.1, 2.0])

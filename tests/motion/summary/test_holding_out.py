@@ -52,6 +52,7 @@ def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
     assert as_entered(selected, parts, ())[0] == pytest.approx(by_hand, rel=1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(5, 6))
 def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
     """Recordings that differ in the forces of their pauses alone, in which no model foretells them."""

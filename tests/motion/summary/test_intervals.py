@@ -29,6 +29,7 @@ def loaded() -> Motions:
     return moved(robot(tool_load={"mass_kg": LOAD_KG, "com_mm": [0, 0, 0]}), 3, seconds=10.0)
 
 
+@pytest.mark.long
 def test_a_load_by_currents_of_unknown_gains_is_known_as_well_as_the_gains(loaded: Motions) -> None:
     value, (low, high), told = weighed(loaded)
     assert told
@@ -37,6 +38,7 @@ def test_a_load_by_currents_of_unknown_gains_is_known_as_well_as_the_gains(loade
     assert high - low > 0.5 * value
 
 
+@pytest.mark.long
 def test_gains_that_are_stated_to_be_exact_are_believed(loaded: Motions) -> None:
     _, (low, high), told = weighed(loaded, gain_uncertainty=0.0)
     assert not told
@@ -56,6 +58,7 @@ def half_width(found: MotionDiagnosis, joint: int) -> float:
     return viscous.interval[1] - viscous.value
 
 
+@pytest.mark.long
 def test_a_number_that_two_paths_tell_differently_is_known_less_well() -> None:
     arm = robot()
     alike, apart = on_two_paths(arm, 0.0), on_two_paths(arm, 0.5)
@@ -65,6 +68,7 @@ def test_a_number_that_two_paths_tell_differently_is_known_less_well() -> None:
     assert VISCOUS[0] == pytest.approx(alike.verdict.background[0].parameters[1].value, abs=3 * half_width(alike, 0))
 
 
+@pytest.mark.long
 def test_what_stands_for_a_cause_acts_on_its_joint(loaded: Motions) -> None:
     """Friction of another joint, which was there too, was told as "31.9 nats better, too close to tell apart"."""
     offset = np.array([0.0, 0.0, 1.5])

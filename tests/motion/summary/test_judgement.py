@@ -16,6 +16,7 @@ from tests.motion.moving import ROBOT, moved, robot
 from tests.seeds import seeds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_links_that_are_all_off_a_little_are_not_nothing_missing(seed: int) -> None:
     """No link stands out, so none has a name; but friction and rotors do not say the torque."""

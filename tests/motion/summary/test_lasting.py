@@ -32,6 +32,7 @@ def wandering(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return np.asarray(SIZE / 2 * noise[:, None] * [0, 1, 0])
 
 
+@pytest.mark.long
 def test_smooth_torque_without_a_law_is_told_with_its_place_and_what_it_follows() -> None:
     found = diagnosed(between_two, runs=3)
     verdict, left = found.verdict, found.verdict.unexplained

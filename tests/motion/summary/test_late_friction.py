@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.core.types import Array
 from armscope.motion.library.dry_friction import DryFriction
@@ -37,6 +38,7 @@ def notices(late_s: float) -> list[Notice]:
     return [notice for notice in diagnosed(late_s).verdict.notices if notice.kind == "late friction"]
 
 
+@pytest.mark.long
 def test_friction_that_clings_is_told_where_and_by_how_much() -> None:
     (told,) = notices(0.012)
     assert "joint 3 12 ±" in told.text
@@ -44,6 +46,7 @@ def test_friction_that_clings_is_told_where_and_by_how_much() -> None:
     assert "joint 2" not in told.text
 
 
+@pytest.mark.long
 def test_friction_in_time_with_its_speed_is_not() -> None:
     assert not notices(0.0)
     assert not notices(0.0015)

@@ -61,6 +61,7 @@ def test_what_is_planted_lights_up_at_its_joint_and_driver_and_is_gone_after_the
     assert np.nanmax(atlas.left) < 0.03
 
 
+@pytest.mark.long
 def test_what_no_cause_names_stays_lit_after_the_fit() -> None:
     lugging = diagnosed(at(3, lambda q, dq, ddq, rigid: 2 * np.tanh(ddq)), seconds=15.0).atlas
     cell = lugging.locations.index("joint 3"), 0, lugging.drivers.index("acceleration")

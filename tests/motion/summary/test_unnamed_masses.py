@@ -58,6 +58,7 @@ def test_a_heavier_link_is_told_from_one_that_is_otherwise_off(monkeypatch: pyte
     assert list(tenable._of_one_path(selected)) == [mass]
 
 
+@pytest.mark.long
 def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
     """Beside masses that are held as the other links' it would be: by hundreds of nats."""
     selected = with_the_second(com_mm=[-130, 30, 50], inertia_kg_m2=[0.06, 0.2, 0.16, 0.01, 0.0, 0.02])

@@ -168,6 +168,7 @@ def folding():
     return build_arm(RobotDescription.model_validate(stated))
 
 
+@pytest.mark.long
 def test_where_every_large_motion_hits_something_a_small_one_grows_about_a_clear_pose():
     arm, around = folding(), Surroundings()
     small = excite(arm, MotionRequest(rounds=0), around)

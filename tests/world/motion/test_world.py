@@ -86,6 +86,7 @@ def test_ruled_joints_move_one_way_or_hardly_at_all_and_stay_within_their_limits
         np.testing.assert_allclose(slope[2:-2], session.speed[run][2:-2], atol=2e-3)
 
 
+@pytest.mark.long
 def test_an_offset_and_dry_friction_of_a_joint_that_moves_one_way_are_rivals():
     ruled = {"arm": "six-axis", "rule": "one_way", "joint": 3, "stated": True}
     one_way = make(spec(("torque_offset", 5.0, "joint 4"), **ruled), FOLDER)
@@ -113,6 +114,7 @@ def test_an_offset_is_said_by_the_name_of_a_cable_at_the_same_joint_and_by_none_
     assert not any(each.is_said_by_others for each in others)
 
 
+@pytest.mark.long
 def test_what_friction_takes_up_has_no_size():
     description, _, dynamics = arm("two-axis")
     session = make_session(description, (6.0, 6.0), "free", None, np.random.default_rng(5))
