@@ -13,7 +13,7 @@ help:
 	@echo "make install     sets up .venv alone, with the command armscope in .venv/bin"
 	@echo "make reproduce   the paper, end to end: Table 2, Figs 1-11, claims, report"
 	@echo "make test        lint, types, unit tests, a small run of the whole workflow"
-	@echo "make test-long   the slower half of the tests, and quick ones on more seeds; before a release, and after a change of the diagnosis"
+	@echo "make test-long   slower tests, and quick ones on more seeds; before a release, and after a change of the diagnosis"
 	@echo "make benchmark   speed beside other packages, as ratios from one run"
 	@echo "make proof       the diagnosis on worlds with concealed effects"
 	@echo "make fuzz        an hour of bad files (SECONDS=60: a minute), and 3000 for every reader"

@@ -44,8 +44,6 @@ READERS = [
     "paper convergence-figure BAD -o OUT",
     "sweep draw BAD -o OUT",
     "poses -r BAD -o OUT.csv",
-    "real protocol RECORDINGS BAD BAD -o OUT",
-    "real protocol RECORDINGS ROBOT BAD -o OUT",
     "proof worlds ROBOT --size small --half fresh --part 0/1 --seed-file BAD --visible OUT --sealed OUT",
     "proof report OUT OUT BAD -o OUT",
     "real protocol BAD ROBOT REFERENCE -o OUT",
