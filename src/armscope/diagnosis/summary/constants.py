@@ -41,6 +41,11 @@ class TellingRules(Constants):
         "cosine of the phase from which a wave works against what its drive gives like a balancing spring",
         "judgement: within 45 degrees of it; a spring's anchor need not stand upright",
     )
+    masses_off: float = constant(
+        0.3,
+        "share of a drive's load by the stated masses up to which masses that are off take it away, and no spring",
+        "judgement: masses that are stated are off by 10 to 30 %",
+    )
     most_bad_shots: float = constant(
         0.1, "share of rows that fit nothing beyond which they are no bad shots", "judgement: a tenth is a pattern"
     )

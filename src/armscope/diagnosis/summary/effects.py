@@ -14,7 +14,7 @@ from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
-from armscope.diagnosis.summary.balancing_spring import LOOK_FOR_A_SPRING, balancing_spring
+from armscope.diagnosis.summary.balancing_spring import balancing_spring
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
@@ -26,7 +26,7 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Part, Placed
-from armscope.physics.elastic import UNKNOWN_MASSES
+from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.physics.scene import Scene
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.schema import Background
@@ -86,9 +86,10 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     others, confirm = listed(rivals, apart), words.confirm
     spring = balancing_spring(fit.model, part, basis.scene)
     if spring is not None:
-        others, confirm = (spring, *others), f"{LOOK_FOR_A_SPRING} {confirm}"
-        if named_as == "effect":
-            named_as, title = "region", f"{title} or {effect_in_words(spring.effect, spring.location)}"
+        rival, look = spring
+        others, confirm = (rival, *others), f"{look} {confirm}"
+        if named_as == "effect" and placed.name != JOINT_COMPLIANCE.name:  # the drive gives way beside a spring as well
+            named_as, title = "region", f"{title} or {effect_in_words(rival.effect, rival.location)}"
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     return FoundEffect(
