@@ -24,24 +24,10 @@ from armscope.physics.elastic import UNKNOWN_MASSES, drive
 from armscope.physics.model import FittedModel
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Posture
+from armscope.verdict.constants import REPAIRS
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.wording import SMALL, main_and_minor
-
-MOST_ROWS = 1500
-"""Rows that contributions are calculated on, spread evenly."""
-TRUSTED = 0.5
-"""Rows that kept less of their weight look like bad shots, and take no part."""
-SEEN = 0.01
-"""Share of the error from which small errors of a family have a switch."""
-FAR_TURN = 2e-3
-"""A turn (rad) whose second order is two micrometres at a metre: beyond it a base is turned back exactly."""
-FELT = 0.01
-"""Share of what a curve moves from which its constant is told: its square is a ten-thousandth."""
-MOST_READ = 20_000
-"""Rows over which a curve's mean is taken."""
-MOST_CAUSES = 6
-"""More major effects than this are taken together with the minor ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +60,7 @@ class Contributions:
         rows: (n,) numbers of the rows, from 0.
         left: (n, 3) with everything cured.
         causes: the major ones, most important first.
-        smaller: minor effects, and major ones beyond `MOST_CAUSES`, together; None where there are none.
+        smaller: minor effects, and major ones beyond `REPAIRS.major_apart`, together; None where there are none.
         small: by family, (n, 3) of the small errors without a name.
         single: each of those that are taken together in `smaller`.
     """
@@ -92,7 +78,7 @@ class Contributions:
         named = [(cause.name, cause.moved) for cause in self.causes]
         if self.smaller is not None:
             named.append((self.smaller.name, self.smaller.moved))
-        least = SEEN * rms(self.before)
+        least = REPAIRS.switch_seen * rms(self.before)
         return [*named, *((SMALL[family], moved) for family, moved in self.small.items() if rms(moved) > least)]
 
     @property
@@ -170,13 +156,13 @@ class Ground:
         if not effect.nameless or effect.curve is None or not any(p.placed.effect.cure.commanded for p in parts):
             return 0.0
         table = self.verdict.recordings
-        amounts = self.verdict.model.scene(table.rows(spread_evenly(len(table), MOST_READ))).amounts(parts)
+        amounts = self.verdict.model.scene(table.rows(spread_evenly(len(table), REPAIRS.motion_rows))).amounts(parts)
         direction, turned = next(iter(amounts.items()), (None, np.zeros(1)))
         moved = None if direction is None else self.posture.displacement(direction)
         if moved is None or direction is None or Location.of(direction.location).kind != "motor":
             return 0.0
         zero = float(np.mean(turned))
-        return zero if rms(self.free(1e3 * zero * moved)) > FELT * rms(self.moved_by(parts)) else 0.0
+        return zero if rms(self.free(1e3 * zero * moved)) > REPAIRS.constant_felt * rms(self.moved_by(parts)) else 0.0
 
     def _brought_back(self, points: Array) -> Array:
         """(n, 3) points with the bases turned back where they lie far off, m.
@@ -191,7 +177,7 @@ class Ground:
                 continue
             here, wanted = points[rows].mean(axis=0), there[rows].mean(axis=0)
             turn = turn_onto(points[rows] - here, there[rows] - wanted)
-            if np.abs(turn - np.eye(3)).max() > FAR_TURN:
+            if np.abs(turn - np.eye(3)).max() > REPAIRS.far_turn_rad:
                 points[rows] = (points[rows] - here) @ turn.T + wanted
         return points
 
@@ -207,7 +193,7 @@ class Ground:
         """
         left, before = self.left_and_before()
         rest = before - left - explained
-        if not self.verdict.background.present and rms(rest) ** 2 < SEEN * rms(before) ** 2:
+        if not self.verdict.background.present and rms(rest) ** 2 < REPAIRS.switch_seen * rms(before) ** 2:
             return before - explained, {}
         return left, self.small(rest)
 
@@ -230,15 +216,15 @@ class Ground:
 
 
 def ground_of(verdict: Diagnosis) -> Ground:
-    """At most `MOST_ROWS` rows of a verdict that are no bad shots."""
-    trusted = np.flatnonzero(verdict.residuals.weight > TRUSTED)
-    rows = trusted[spread_evenly(len(trusted), MOST_ROWS)]
+    """At most `REPAIRS.rows` rows of a verdict that are no bad shots."""
+    trusted = np.flatnonzero(verdict.residuals.weight > REPAIRS.trusted_weight)
+    rows = trusted[spread_evenly(len(trusted), REPAIRS.rows)]
     posture = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows)))
     return Ground(verdict, rows, posture, _frames(verdict, posture))
 
 
 def contributions(verdict: Diagnosis) -> Contributions:
-    """What each cause of a verdict moves, on at most `MOST_ROWS` rows that are no bad shots."""
+    """What each cause of a verdict moves, on at most `REPAIRS.rows` rows that are no bad shots."""
     ground, parts = ground_of(verdict), parts_of(verdict)
     main, minor = main_and_minor(verdict.effects)
 
@@ -250,8 +236,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
             return Repair(effect.title, (effect,), its, fitted, zero)
         return Repair(effect.title, (effect,), its, worded, zero, fitted - worded)
 
-    causes = tuple(alone(effect) for effect in main[:MOST_CAUSES])
-    rest = [effect for effect in (*main[MOST_CAUSES:], *minor) if parts[id(effect)]]
+    causes = tuple(alone(effect) for effect in main[: REPAIRS.major_apart])
+    rest = [effect for effect in (*main[REPAIRS.major_apart :], *minor) if parts[id(effect)]]
     together = tuple(part for effect in rest for part in parts[id(effect)])
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None

@@ -13,6 +13,7 @@ from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
 from armscope.robot import Arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
+from armscope.verdict.constants import ORDER
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.entries import entry_decimals
@@ -20,8 +21,6 @@ from armscope.verdict.wording import beyond_arms, implausible
 
 NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
-LEAST_TURN = 1e-5
-"""A joint's origin that turns by less (rad) keeps its stated angles: at a metre this is 0.01 mm."""
 
 
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
@@ -161,7 +160,7 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
     """
     told = {p.name: p.value for p in effect.parameters if not implausible(p, effect)}
     errors = np.array([told.get(axis, 0.0) for axis in AXES]) * np.array([1e-3, 1e-3, 1e-3, 1, 1, 1])
-    turned = errors[3:] if np.abs(errors[3:]).max() > LEAST_TURN else np.zeros(3)
+    turned = errors[3:] if np.abs(errors[3:]).max() > ORDER.turned_origin_rad else np.zeros(3)
     moved = np.eye(4)
     moved[:3, 3], moved[:3, :3] = errors[:3], turned_by(turned)
     to_file = turns_of_file(arm)[joint - 1] @ axes_told(arm)[joint - 1]

@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from armscope.physics.registry import effect_named
+from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
 from armscope.verdict.sentences import exact_phrase, kind_and_place
 from armscope.verdict.wording import effect_in_words, enumerated, plain
 
-RIVALS = 2
-"""What else a cause could be, as told in a task: the nearest."""
 OPEN = "to be settled"
 """What is changed about a cause that is not settled: nothing yet."""
 MEANWHILE = "Until then change nothing for it: commands by the whole model (armscope compensate) hold whichever it is."
@@ -61,7 +60,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
 
 def unless_confirmed(effect: FoundEffect) -> str:
     """What a named cause could be, too, if the test at the arm does not show it; "" where all else is excluded."""
-    near = [_words(each) for each in effect.alternatives if each.excluded is False][:RIVALS]
+    near = [_words(each) for each in effect.alternatives if each.excluded is False][: WORDS.rivals]
     if effect.named_as != "effect" or not near:
         return ""
     return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
@@ -70,7 +69,7 @@ def unless_confirmed(effect: FoundEffect) -> str:
 def _rivals(effect: FoundEffect) -> list[Alternative]:
     """What an unsettled cause could be besides its best reading: those in its title, or else the nearest."""
     if not _either(effect):
-        return list(effect.alternatives[:RIVALS])
+        return list(effect.alternatives[: WORDS.rivals])
     return [each for each in effect.alternatives if _words(each) in plain(effect.title)]
 
 

@@ -10,16 +10,13 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
+from armscope.verdict.constants import ORDER
 from armscope.verdict.doubts import OPEN
 from armscope.verdict.tasks import Task
 from armscope.verdict.wording import enumerated, places_in_words
 
 Job = tuple[Task, Array]
 """A task, and what the tool moves by what it cures."""
-AS_GOOD = 0.03
-"""Share of the error within which fewer causes do as well as more."""
-MOST = 8
-"""Causes of which all sets are tried: those that move most."""
 TOGETHER = "Enter all of these before anything is measured or moved by them; one without the others makes it worse."
 
 
@@ -34,14 +31,15 @@ def pays_together(unpaid: Sequence[Job], left: Array) -> list[Job]:
         The tasks of the set; none where no set leaves less than is left now.
     """
     sure = sorted((job for job in unpaid if job[0].change != OPEN and rms(job[1]) > 0), key=lambda job: -rms(job[1]))
-    sets = [s for size in range(2, MOST + 1) for s in itertools.combinations(sure[:MOST], size)]
+    tried = sure[: ORDER.tried_together]
+    sets = [s for size in range(2, len(tried) + 1) for s in itertools.combinations(tried, size)]
     if not sets:
         return []
     leaves = [rms(left - moved_by(each)) for each in sets]
     best = min(leaves)
-    if best > (1 - AS_GOOD) * rms(left):
+    if best > (1 - ORDER.as_good) * rms(left):
         return []
-    return list(next(each for each, mm in zip(sets, leaves, strict=True) if mm <= (1 + AS_GOOD) * best))
+    return list(next(each for each, mm in zip(sets, leaves, strict=True) if mm <= (1 + ORDER.as_good) * best))
 
 
 def moved_by(jobs: Iterable[Job]) -> Array:

@@ -20,12 +20,13 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
-from armscope.verdict.contributions import SEEN, Contributions, ground_of, parts_of
+from armscope.verdict.constants import REPAIRS, WORDS
+from armscope.verdict.contributions import Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.schema import Background, Verdict
-from armscope.verdict.sentences import TOLD, cause_in_words, headline
+from armscope.verdict.sentences import cause_in_words, headline
 
 Weigh = Callable[[FoundEffect, Sequence[Background]], FoundEffect]
 """An effect and the small errors everywhere, with their shares: the effect, minor where it is one of them."""
@@ -66,7 +67,7 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
 
     def placed(effect: FoundEffect, its: Array) -> FoundEffect:
         told = replace(effect, share=share(its))
-        if effect.minor or rms(its) < SEEN * rms(before):
+        if effect.minor or rms(its) < REPAIRS.switch_seen * rms(before):
             return told
         worth = max(told.share, float(np.sum(its**2)) / squared)
         return replace(told, minor=weigh(replace(told, share=worth), families).minor)
@@ -109,7 +110,7 @@ def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | No
 
 def minor_and_told(causes: Sequence[Cause]) -> list[Cause]:
     """Causes that a headline tells though each member by itself is minor: curves at several joints, say."""
-    return [cause for cause in causes if cause.minor and cause.members and cause.share > TOLD]
+    return [cause for cause in causes if cause.minor and cause.members and cause.share > WORDS.told_first]
 
 
 def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:

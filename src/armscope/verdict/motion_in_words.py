@@ -10,10 +10,8 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.effect import Part
 from armscope.physics.scene import Scene
+from armscope.verdict.constants import WORDS
 from armscope.verdict.entries import with_sign
-
-STEADY = 0.02
-"""A motion whose range is below this share of its size is told as one number."""
 
 
 def correction_in_words(scene: Scene, parts: tuple[Part, ...]) -> str:
@@ -61,7 +59,7 @@ def motion_in_words(scene: Scene, parts: tuple[Part, ...], zero: float | None = 
 
 def _range(amount: Array, turning: bool) -> str:
     low, high = float(amount.min()), float(amount.max())
-    if high - low < STEADY * max(abs(low), abs(high)):
+    if high - low < WORDS.steady * max(abs(low), abs(high)):
         low = high = float(amount.mean())
     ends = [low] if low == high else [low, high]
 

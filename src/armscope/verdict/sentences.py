@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
+from armscope.verdict.constants import WORDS
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
@@ -33,21 +34,8 @@ from armscope.verdict.wording import (
     still_open,
 )
 
-MOST_TOLD = 3
-"""More causes than this are counted, not told."""
 _OTHERS = "all others a little"
 _WORST = ", most at "
-TOLD = 0.05
-"""Share of the squared error from which a cause is told first; smaller ones come after, and are counted where none of
-their members stands out."""
-SPREAD_TOLD = 0.15
-"""The same for a cause of which no member stands out: below it, it is one of the rest."""
-UNSURE = 0.01
-"""Share from which small errors are told that the evidence does not ask for."""
-CLEARLY = 1.1
-"""Times the error without a model from which one with it is said to be worse on rows that took no part."""
-FAINT = 0.7
-"""Something unexplained of a smaller share of the residual is hidden in the noise."""
 
 
 def headline(verdict: Diagnosis) -> str:
@@ -71,16 +59,16 @@ def headline(verdict: Diagnosis) -> str:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
     clauses = [f"{c.text} – {percent(c.share)}{' of the squared error' * (c is told[0])}" for c in told]
-    first = max(1, sum(c.share > TOLD for c in told))
+    first = max(1, sum(c.share > WORDS.told_first for c in told))
     rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
-    named = [c for c in causes if c.members and not c.minor and c.share > UNSURE and not _spread(c)]
-    first = [c for c in causes if c.share > (SPREAD_TOLD if _spread(c) else TOLD) or c in named]
-    told = first[:MOST_TOLD] or list(causes[:1])
+    named = [c for c in causes if c.members and not c.minor and c.share > WORDS.told_though_unsure and not _spread(c)]
+    first = [c for c in causes if c.share > (WORDS.spread_told_first if _spread(c) else WORDS.told_first) or c in named]
+    told = first[: WORDS.causes] or list(causes[:1])
     return told, [cause for cause in causes if cause not in told]
 
 
@@ -121,7 +109,8 @@ def _with_others(clause: str, beside: Sequence[str]) -> str:
 
 def _is_next_to_nothing(effect: FoundEffect, small: Background) -> bool:
     """Whether a member is less than a twentieth of the small errors of its family, in share and (hidden) in size."""
-    return effect.share < TOLD * small.share and effect.rms_at_tool_mm**2 < TOLD * small.rms_at_tool_mm**2
+    part, size = effect.share, effect.rms_at_tool_mm
+    return part < WORDS.told_first * small.share and size**2 < WORDS.told_first * small.rms_at_tool_mm**2
 
 
 def unusable(verdict: Diagnosis) -> str:
@@ -146,7 +135,7 @@ def holds(verdict: Verdict) -> bool:
 
 def makes_worse(verdict: Verdict) -> bool:
     """Whether such rows are clearly worse with the model."""
-    return verdict.held_out.after > CLEARLY * verdict.held_out.before
+    return verdict.held_out.after > WORDS.clearly_worse * verdict.held_out.before
 
 
 def background_in_words(verdict: Verdict) -> str:
@@ -202,7 +191,7 @@ def _smaller(rest: Sequence[Cause]) -> Iterator[str]:
 
 def _unsure(verdict: Diagnosis) -> Iterator[str]:
     """Small errors that the model holds though the evidence does not ask for them, and so are in no cause."""
-    told = [each for each in verdict.background_families if not each.present and each.share > UNSURE]
+    told = [each for each in verdict.background_families if not each.present and each.share > WORDS.told_though_unsure]
     if told:
         kinds = enumerated([SMALL[each.family] for each in told if each.family in SMALL])
         yield f"possibly {kinds} ({percent(sum(each.share for each in told))})"
@@ -251,7 +240,7 @@ def _told(effect: FoundEffect) -> Told:
 def _cannot_tell(verdict: Diagnosis) -> str:
     left, after = verdict.unexplained, verdict.residual_after_mm
     # larger than all that is left: it is of rows that fit nothing
-    if verdict.mismatch and left.description and not FAINT * after <= left.rms_mm <= after:
+    if verdict.mismatch and left.description and not WORDS.faint * after <= left.rms_mm <= after:
         return f"Cannot tell what is missing: {plain(left.description)}."
     if verdict.mismatch:
         remains = millimetres(after)

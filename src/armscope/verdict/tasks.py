@@ -16,6 +16,7 @@ from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
+from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
 from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
@@ -26,9 +27,6 @@ from armscope.verdict.motion_in_words import correction_in_words, motion_in_word
 from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
 from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
-
-LEAST_TURN = 5e-5
-"""Smaller turns of a jump (rad) are not told: at a metre they are less than what jumps are measured by."""
 
 
 @dataclass(frozen=True)
@@ -245,7 +243,7 @@ def _jump(effect: FoundEffect) -> str:
     told = [
         f"{named[p.name]} {angle(p.value, p.stderr)}" if p.name in named else f"{p.name} {length(p.value, p.stderr)}"
         for p in effect.parameters
-        if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > LEAST_TURN)
+        if p.name in ("x", "y", "z") or (p.name in named and abs(p.value) > ORDER.least_turn_rad)
     ]
     axes = "the last D-H frame" if effect.location == "tool" else "the base frame"
     return f" (it jumped by {', '.join(told)} in {axes})" if told else ""

@@ -10,6 +10,7 @@ import numpy as np
 
 from armscope.core.numerals import shown_unit
 from armscope.physics.registry import effect_named
+from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
 from armscope.verdict.schema import Verdict
 
@@ -67,8 +68,6 @@ _ALSO = {
     "drift": "also moving",
 }
 """What the places of a cause do that stand beside the first, by family."""
-MOST_PLACES = 4
-"""More places than this are counted, not told."""
 
 
 @dataclass(frozen=True)
@@ -131,7 +130,7 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
     places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
     if not places:
         return [f"{spelled(len(others))} more at the same place"] if others else []
-    if len(places) > MOST_PLACES:
+    if len(places) > WORDS.places:
         return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
     kinds: dict[str, list[str]] = {}  # "has play (also off: joint 4)" would be read as play of joint 4
     for effect in (each for each in others if each.location in places):
@@ -280,13 +279,9 @@ def implausible(parameter: Parameter, effect: FoundEffect) -> bool:
     return max(abs(parameter.value), open_by) > bound
 
 
-SURELY = 5.0
-"""Standard errors from zero at which a value is no open one (judgement: one chance in two million)."""
-
-
 def beyond_arms(effect: FoundEffect) -> bool:
     """Whether a value that is sure lies beyond what arms have: what was stated of the arm is to be looked at first."""
-    return any(implausible(p, effect) and abs(p.value) > SURELY * p.stderr for p in effect.parameters)
+    return any(implausible(p, effect) and abs(p.value) > WORDS.sure * p.stderr for p in effect.parameters)
 
 
 def effect_in_words(effect: str, location: str) -> str:

@@ -9,6 +9,7 @@ from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRANSMISSION
+from armscope.verdict.constants import ORDER, REPAIRS
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
@@ -29,12 +30,6 @@ OWN_FIT = (
 )
 """On two public sets, by 70 % of the rows: 0.24 mm expected and 0.17 mm on the rest by `armscope calibrate`; 0.69 and
 1.05 mm, where it leaves what no zero and no row can say."""
-LEAST_GAIN = 0.03
-"""Share of the error that a task must take away in its turn."""
-WORTH_TOGETHER = 0.1
-"""Share of the error from which all that is left in the fitted model is commanded away together."""
-WORTH_OF_MINOR = 0.25
-"""The same from which a minor effect is a task of its own in its turn: judgement, with two real arms in view."""
 COMPENSATE = "armscope compensate"
 NOT_ON_TOP = (
     "Commands from armscope compensate take out all that was found, other steps included: use them in place of those, "
@@ -44,8 +39,6 @@ NOT_ON_TOP = (
 NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
 DOES_NOTHING = "by itself it changes nothing: payload data act only where what gives way is corrected, by {}"
 """In place of what a payload's correction alone would leave."""
-MOST_ROWS = 20_000
-"""In which a repair's motion is looked for: all frames of a million rows would take four gigabytes."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +84,7 @@ class WorkOrder:
 
 def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     """The work order of a verdict: tasks for effects that pay in their turn, and for small errors of a cause."""
-    rows = spread_evenly(len(verdict.recordings), MOST_ROWS)
+    rows = spread_evenly(len(verdict.recordings), REPAIRS.motion_rows)
     scene = verdict.model.posture(verdict.model.scene(verdict.recordings.rows(rows))).scene
 
     def asked(effect: FoundEffect) -> bool:
@@ -124,7 +117,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         by_themselves = [job for job in repairs if _among(job, geometric)]
         more, left, waiting = _by_gain(by_themselves, left)
         last, unpaid, geometric = [*last, *more], [*unpaid, *waiting], []
-    smaller, left, _ = _by_gain([job for job in minor if not _among(job, geometric)], left, WORTH_OF_MINOR)
+    smaller, left, _ = _by_gain([job for job in minor if not _among(job, geometric)], left, ORDER.worth_of_minor)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
     against = pays_together(unpaid, left)
     if against:  # each alone makes it worse: one step of all, and what pays after it
@@ -139,7 +132,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     ]
     done = [_after_what_it_needs(task, done[:n]) for n, task in enumerate(done)]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
-    if rms(worth.left) < (1 - WORTH_TOGETHER) * rms(left):
+    if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
         names = [what[:1].lower() + what[1:] for what in moving]
         done.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
@@ -198,7 +191,7 @@ def _together(names: Sequence[str], left_mm: float, instead: bool) -> Task:
 
 
 def _by_gain(
-    waiting: Sequence[Job], left: Array, least: float = LEAST_GAIN
+    waiting: Sequence[Job], left: Array, least: float = ORDER.least_gain
 ) -> tuple[list[tuple[Task, float]], Array, list[Job]]:
     """Tasks in the order in which they pay, with the error after each; what is left then; and those that don't pay."""
     done, waiting = [], list(waiting)

@@ -1,0 +1,117 @@
+"""Numbers that decide what of a verdict is told, and in which order it is cured; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class RepairRules(Constants):
+    """What each cause moves, and what is left of the error once it is cured."""
+
+    rows: int = constant(
+        1500, "that contributions are calculated on, spread evenly", "judgement: of speed", unit="rows"
+    )
+    motion_rows: int = constant(
+        20_000,
+        "over which a repair's motion and a curve's mean are taken",
+        "derived: all frames of a million rows would take four gigabytes",
+        unit="rows",
+    )
+    trusted_weight: float = constant(
+        0.5, "weight below which a row looks like a bad shot and takes no part", "convention: the half"
+    )
+    switch_seen: float = constant(
+        0.01, "share of the error from which small errors of a family have a switch", "judgement: less is not seen"
+    )
+    far_turn_rad: float = constant(
+        2e-3,
+        "turn beyond which a base is turned back exactly",
+        "derived: its second order is two micrometres at a metre",
+        unit="rad",
+    )
+    constant_felt: float = constant(
+        0.01, "share of what a curve moves from which its constant is told", "derived: its square is a ten-thousandth"
+    )
+    major_apart: int = constant(
+        6, "major effects, more of which are taken together with the minor ones", "judgement: nobody tries out more"
+    )
+
+
+@dataclass(frozen=True)
+class OrderRules(Constants):
+    """What is a task of the work order."""
+
+    least_gain: float = constant(
+        0.03, "share of the error that a task must take away in its turn", "judgement: less is not felt"
+    )
+    worth_together: float = constant(
+        0.1,
+        "share of the error from which all that is left in the fitted model is commanded away together",
+        "judgement: less is not worth other commands",
+    )
+    worth_of_minor: float = constant(
+        0.25, "share from which a minor effect is a task in its turn", "judgement: with two real arms in view"
+    )
+    as_good: float = constant(
+        0.03, "share of the error within which fewer causes do as well as more", "judgement: as least_gain"
+    )
+    tried_together: int = constant(
+        8, "causes of which all sets are tried: those that move most", "judgement: of speed, 255 sets"
+    )
+    least_turn_rad: float = constant(
+        5e-5,
+        "turn of a jump below which it is not told",
+        "judgement: at a metre it is less than what jumps are measured by",
+        unit="rad",
+    )
+    turned_origin_rad: float = constant(
+        1e-5,
+        "turn of a joint's origin up to which it keeps its stated angles",
+        "derived: 0.01 mm at a metre",
+        unit="rad",
+    )
+
+
+@dataclass(frozen=True)
+class WordingRules(Constants):
+    """What is told in words, and how surely."""
+
+    causes: int = constant(3, "in a headline; more are counted, not told", "judgement: as many are kept in mind")
+    places: int = constant(4, "in a sentence; more are counted, not told", "judgement: as many are read")
+    rivals: int = constant(2, "of a cause that a task tells: the nearest", "judgement: as many are looked for")
+    told_first: float = constant(
+        0.05,
+        "share of the squared error from which a cause is told first; smaller ones come after, and are counted where "
+        "none of their members stands out",
+        "judgement: less is not what the arm misses by",
+    )
+    spread_told_first: float = constant(
+        0.15,
+        "the same for a cause of which no member stands out: below it, it is one of the rest",
+        "judgement: nothing can be done about it by itself",
+    )
+    told_though_unsure: float = constant(
+        0.01, "share from which small errors are told that the evidence does not ask for", "judgement: less is noise"
+    )
+    clearly_worse: float = constant(
+        1.1,
+        "times the error without a model from which one with it is said to be worse on rows that took no part",
+        "judgement: less is a matter of which rows",
+    )
+    faint: float = constant(
+        0.7,
+        "share of the residual below which something unexplained is hidden in the noise",
+        "derived: half of its square",
+    )
+    sure: float = constant(
+        5.0, "standard errors from zero at which a value is no open one", "judgement: one chance in two million"
+    )
+    steady: float = constant(
+        0.02, "share of its size below which a motion's range is told as one number", "judgement: two digits"
+    )
+
+
+REPAIRS, ORDER, WORDS = RepairRules(), OrderRules(), WordingRules()
