@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.comparison import compare
-from armscope.comparison.changes import LEVEL
+from armscope.comparison.constants import COMPARING
 from armscope.core.inputs import InputError
 from armscope.recordings import as_recordings
 from armscope.robot import chain, load_arm
@@ -44,7 +44,7 @@ def wandering(table, seed):
 
 @pytest.mark.parametrize(("worlds", "most"), [(6, 1), pytest.param(24, 4, marks=pytest.mark.long)])
 def test_where_nothing_changed_nothing_is_named_at_the_stated_rate(worlds, most):
-    """The number named by chance is binomial with at most LEVEL: more than 1 of 6 has a probability of
+    """The number named by chance is binomial with at most COMPARING.level: more than 1 of 6 has a probability of
     3 %, more than 4 of 24 below 1 %.
 
     A third has white noise, a third another noise and fewer rows in one recording, a third wanders. No threshold was
@@ -58,7 +58,7 @@ def test_where_nothing_changed_nothing_is_named_at_the_stated_rate(worlds, most)
         found.append(compare(ARM, {"a": wandering(before, n), "b": wandering(after, -n % 7919)}))
     assert len(found) == worlds
     assert sum(bool(each.changes) for each in found) <= most
-    assert all((each.p_nothing_changed <= LEVEL) == bool(each.changes) for each in found)
+    assert all((each.p_nothing_changed <= COMPARING.level) == bool(each.changes) for each in found)
 
 
 @pytest.mark.parametrize("what", ["poses", "payload"])

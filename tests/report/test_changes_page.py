@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.comparison import Change, Comparison, Left, Seen, Valued, compare
-from armscope.comparison.shared_model import PRIOR_MM
+from armscope.comparison.constants import SHARED
 from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
 from tests.report.test_dark_pages import CHROMIUM
@@ -148,7 +148,7 @@ def test_every_recording_has_its_rows_and_what_is_left_of_it(tmp_path):
     apart = recordings_table(replace(FOUND, changes=(), same_poses=(("before",), ("after",))))
     assert apart["compared with"].tolist() == ["none: other poses or payload"] * 2
     assert "and the changes (mm)" not in apart, "nothing changed, so it is the column before"
-    assert f"prior of {PRIOR_MM:g} mm" in said
+    assert f"prior of {SHARED.prior_mm:g} mm" in said
 
 
 def test_of_many_recordings_the_first_and_the_last_are_named():

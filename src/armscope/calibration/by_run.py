@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.fit import placed
 from armscope.calibration.model import SetUp
 from armscope.calibration.splits import foretold, random_split
@@ -16,8 +17,6 @@ from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
 
 ALL = "all"
-MOST_ROWS = 3000
-"""Rows to train on that are enough; of longer tables so many are drawn."""
 
 
 def misses_by_run(
@@ -47,8 +46,8 @@ def misses_by_run(
     alone: dict[str, list[float]] = {name: [] for name in names}
     for seed in range(splits):
         train, test = random_split(recordings, seed)
-        if len(train) > MOST_ROWS:
-            train = np.sort(np.random.default_rng(seed).permutation(train)[:MOST_ROWS])
+        if len(train) > CALIBRATING.rows_of_runs:
+            train = np.sort(np.random.default_rng(seed).permutation(train)[: CALIBRATING.rows_of_runs])
         test = foretold(rows, train, test)
         found = without.residuals(refit(rows.rows(train)))
         frames = without.residuals(placed(without.rows(train)))

@@ -9,6 +9,7 @@ import numpy as np
 
 from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.confounding import Confounded, confounded_parameters
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
 from armscope.calibration.result import Calibration
@@ -21,16 +22,6 @@ from armscope.core.types import Array
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-SUSPECT_SIGMAS = 6.0
-DECIDING_SPLITS = 3
-"""Splits on which it is decided whether orientations help."""
-
-DECIDING_ROWS = 1000
-"""Rows to train on that are enough for this decision; long tables are thinned."""
-
-HARM = 1.01
-"""Orientations are left out if they raise the held-out RMS of positions by more than this factor."""
 
 
 # so many parameters: each is a choice of its own that a user makes by name, and all have a default
@@ -102,7 +93,7 @@ def calibrate(
         covariance=covariance,
         steps=fitted.steps,
         reason=fitted.reason,
-        suspects=distance > SUSPECT_SIGMAS * scale_of(rows.residuals(fitted.state)),
+        suspects=distance > CALIBRATING.suspect_sigmas * scale_of(rows.residuals(fitted.state)),
         ids=np.array(ids),
         notes=tuple(notes + doubtful_loads(solved, level, covariance) + no_held_out_gain(misses)),
         doubts=tuple(doubts + implausible_fit(solved)),
@@ -125,14 +116,14 @@ def _orientation_helps(rows: SetUp, recordings: Recordings, solved_for: Callable
     found = []
     for variant in (without, rows):
         squares = []
-        for seed in range(DECIDING_SPLITS):
+        for seed in range(CALIBRATING.deciding_splits):
             train, test = random_split(recordings, seed)
-            train = train[:: max(1, len(train) // DECIDING_ROWS)]
+            train = train[:: max(1, len(train) // CALIBRATING.deciding_rows)]
             test = foretold(rows, train, test)
             fitted = solved_for(variant.rows(train)).fitted
             squares.append(rms_distance(without.rows(test).residuals(fitted.state)) ** 2)
         found.append(1e3 * float(np.sqrt(np.mean(squares))))
-    helps = found[1] <= HARM * found[0]
+    helps = found[1] <= CALIBRATING.harm * found[0]
     said = f"held-out RMS distance {found[1]:.3g} mm with them, {found[0]:.3g} mm without"
     return helps, f"orientations {'used' if helps else 'left out'}: {said}"
 

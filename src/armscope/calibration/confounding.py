@@ -7,13 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.identifiability import SMALLEST_TRACE
+from armscope.calibration.constants import IDENTIFYING
 from armscope.core.types import Array
-
-MOST_PARTNERS = 6
-TOLD_SINGLY = 2
-ALIKE = 0.05
-"""A parameter counts as imitated if this share of what it does to the tool is left, or less."""
 
 
 @dataclass(frozen=True)
@@ -36,9 +31,9 @@ class Confounded:
         if not self.partners:
             return f"{self.name}: hardly moves the tool"
         told = self.partners
-        if len(told) > TOLD_SINGLY:
+        if len(told) > IDENTIFYING.told_singly:
             told = tuple(dict.fromkeys(partner.rpartition(" ")[0] for partner in told))
-        return f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > ALIKE else "")
+        return f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > IDENTIFYING.alike else "")
 
 
 def confounded_parameters(
@@ -47,8 +42,8 @@ def confounded_parameters(
     """One per parameter that is not free.
 
     Greedy (orthogonal matching pursuit, Pati et al. 1993): the fitted column most alike to what is left enters, until
-    next to nothing is left or `MOST_PARTNERS` have entered. Columns of the same number of all bases, or of all tools,
-    enter together: each stands for some of the rows.
+    next to nothing is left or `IDENTIFYING.partners` have entered. Columns of the same number of all bases, or of all
+    tools, enter together: each stands for some of the rows.
 
     Args:
         jacobian: (M, P).
@@ -75,11 +70,11 @@ def kind_of(name: str) -> str:
 
 def _confounded(name: str, column: Array, unit: Array, kinds: NDArray[np.str_]) -> Confounded:
     size = float(np.linalg.norm(column))
-    if size < SMALLEST_TRACE:
+    if size < IDENTIFYING.smallest_trace:
         return Confounded(name, (), 1.0)
     left, partners = column, list[str]()
     every, number = np.unique(kinds, return_inverse=True)
-    while len(partners) < MOST_PARTNERS and np.linalg.norm(left) > ALIKE * size:
+    while len(partners) < IDENTIFYING.partners and np.linalg.norm(left) > IDENTIFYING.alike * size:
         # columns of different runs or targets share no row, so that their parts add up
         alike = np.sqrt(np.bincount(number, (left @ unit) ** 2))
         partners.append(str(every[int(np.argmax(alike))]))

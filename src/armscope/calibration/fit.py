@@ -8,16 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.constants import FITTING
 from armscope.calibration.model import SetUp
 from armscope.calibration.state import Posed, State
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.measurement import robust
-
-LARGEST_STEPS = 60
-NEGLIGIBLE = 1e-8
-"""Steps that move the tool by less than this, in metres RMS, end the fit: a hundredth of a micrometre."""
 
 Rule = Callable[[Array], Array]
 """(N,) weights by what is left of the points (N, 3), m."""
@@ -62,7 +59,7 @@ class _Calibration(NonlinearProblem[State, Posed]):
         return state.moved(whole)
 
     def settled(self, before: Posed, after: Posed) -> bool:
-        return float(np.sqrt(np.mean((after.left - before.left) ** 2))) < NEGLIGIBLE
+        return float(np.sqrt(np.mean((after.left - before.left) ** 2))) < FITTING.negligible_m
 
 
 def least_squares(
@@ -85,7 +82,7 @@ def least_squares(
         The state, weights, steps, and why it stopped.
     """
     problem = _Calibration(set_up, free, np.zeros(len(free)) if stiffness is None else stiffness, rule)
-    found = gauss_newton(problem, state, LARGEST_STEPS)
+    found = gauss_newton(problem, state, FITTING.steps)
     return Fitted(found.state, problem.weights, found.steps, found.reason)
 
 
@@ -126,7 +123,7 @@ def _quartic(left: Array) -> Array:
     return robust.quartic_weights(left, np.ones(len(left)), 0.0)
 
 
-def placed(set_up: SetUp, most_steps: int = LARGEST_STEPS) -> State:
+def placed(set_up: SetUp, most_steps: int = FITTING.steps) -> State:
     """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration.
 
     Args:

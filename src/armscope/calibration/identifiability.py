@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.constants import IDENTIFYING
 from armscope.core.types import Array, Indices
 from armscope.design.independence import independent_columns
-
-SMALLEST_TRACE = 1e-3
-"""A constant counts as identifiable if a change of it leaves at least this share (per metre, or per radian and metre of
-reach) at the tool, beyond what the others can imitate. At a thousandth, 1 mm shows as 1 micrometre: no less helps."""
 
 
 def identifiable(jacobian: Array, tiers: Indices, scales: Array) -> NDArray[np.bool_]:
@@ -25,4 +22,4 @@ def identifiable(jacobian: Array, tiers: Indices, scales: Array) -> NDArray[np.b
         (P,) boolean.
     """
     triangular = np.linalg.qr(jacobian, mode="r") if len(jacobian) > jacobian.shape[1] else jacobian
-    return independent_columns(triangular * scales / np.sqrt(len(jacobian) / 3), tiers, SMALLEST_TRACE)
+    return independent_columns(triangular * scales / np.sqrt(len(jacobian) / 3), tiers, IDENTIFYING.smallest_trace)

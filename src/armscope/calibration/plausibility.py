@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.result import SHOWN
 from armscope.calibration.solve import Solved
@@ -15,7 +16,6 @@ from armscope.recordings import Recordings
 
 IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
 """A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""
-SURE_SIGMAS = 3.0
 
 
 def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
@@ -72,7 +72,7 @@ def doubtful_loads(solved: Solved, level: Level, covariance: Array) -> list[str]
     errors = dict(zip(fitted.tolist(), np.sqrt(np.diag(covariance)).tolist(), strict=True))
     values = {f"joint {motor}": value for motor, value in enumerate(solved.fitted.state.compliances, start=1)}
     error_of = {name: errors.get(f"{name} compliance", np.inf) for name in values}
-    if against := [name for name, value in values.items() if value < -SURE_SIGMAS * error_of[name]]:
+    if against := [name for name, value in values.items() if value < -CALIBRATING.sure_sigmas * error_of[name]]:
         question = "; does gravity_m_s2 point the right way?" if by_table else ""
         notes.append(f"turns against its load, which no spring does: {', '.join(against)}{question}")
     if by_table and not arm.masses.all():

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.calibration.by_run import ALL
 from armscope.calibration.confounding import Confounded
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.model import Level, SetUp
 from armscope.calibration.state import State
@@ -20,7 +21,6 @@ from armscope.robot import Arm
 
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
 """Factor and unit for reading."""
-MOST_SUSPECTS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +132,8 @@ def in_words(calibration: Calibration) -> str:
     lines += calibration.notes
     lines += [f"doubtful: {doubt}" for doubt in calibration.doubts]
     if len(suspects := calibration.ids[calibration.suspects]):
-        more = ", ..." if len(suspects) > MOST_SUSPECTS else ""
-        lines.append(f"{len(suspects)} rows look like bad shots: {', '.join(suspects[:MOST_SUSPECTS])}{more}")
+        more = ", ..." if len(suspects) > CALIBRATING.suspects else ""
+        lines.append(f"{len(suspects)} rows look like bad shots: {', '.join(suspects[: CALIBRATING.suspects])}{more}")
     lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
     lines += [_parameter(*row) for row in calibration.table.itertuples(index=False)]
     if calibration.held:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.fit import placed
 from armscope.calibration.model import set_up
 from armscope.core.sampling import spread_evenly
@@ -15,9 +16,6 @@ from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-ROWS = 1000
-"""Rows that are looked at, at most."""
 
 
 def sharing(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None) -> tuple[list[str], list[str]]:
@@ -35,7 +33,7 @@ def sharing(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool
     if len(np.unique(recordings.run)) < 2:
         return [], []
     notes, doubts = list[str](), list[str]()
-    some = replace(recordings.rows(spread_evenly(len(recordings), ROWS)), orientation=None)
+    some = replace(recordings.rows(spread_evenly(len(recordings), CALIBRATING.rows_of_frames)), orientation=None)
     if not tool_per_run and (found := exchanged_tool(fit_frames(arm, some), some)):
         text = f"one tool for all runs leaves {found.shared_mm:.3g} mm, one per run {found.own_mm:.3g} mm"
         if tool_per_run is None:

@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.constants import FITTING
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
 from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp
@@ -16,8 +17,6 @@ from armscope.core.types import Array
 from armscope.measurement.robust import scale_of
 
 Redundancy = Literal["fixed", "priors"]
-WEIGHINGS = 3
-"""Fits with orientations: the weight of the first comes from the nominal arm, that of the next from the fit before."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +61,7 @@ def solve(
     """
     solver = robust_least_squares if robust else least_squares
     start = placed(rows) if start is None else start
-    for _ in range(WEIGHINGS if rows.orientations is not None else 1):
+    for _ in range(FITTING.weighings if rows.orientations is not None else 1):
         rows = _weighed(rows, start)
         free, stiffness = _freedom(rows, start, level, redundancy, priors)
         fitted = solver(rows, start, free, stiffness)

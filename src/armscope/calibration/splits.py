@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.model import SetUp
 from armscope.core.grouping import by_label, named_configuration, same_configuration, visited_by_others
 from armscope.core.types import Indices
 from armscope.recordings import Recordings
-
-TRAIN_SHARE = 0.7
 
 
 def random_split(recordings: Recordings, seed: int) -> tuple[Indices, Indices]:
@@ -24,7 +23,7 @@ def random_split(recordings: Recordings, seed: int) -> tuple[Indices, Indices]:
     if shared.any():
         configuration = by_label(np.where(shared, -1 - pose, configuration).astype(str))[1]
     count = int(configuration.max(initial=-1)) + 1
-    train = np.random.default_rng(seed).permutation(count)[: int(TRAIN_SHARE * count)]
+    train = np.random.default_rng(seed).permutation(count)[: int(CALIBRATING.train_share * count)]
     in_train = np.isin(configuration, train)
     return np.flatnonzero(in_train), np.flatnonzero(~in_train)
 

@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from armscope.comparison.constants import COMPARING
 from armscope.comparison.other_load import other_load
-from armscope.comparison.result import POWER, Change, Comparison, Kind, Left, Seen, Valued
+from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import Possible, Scored, SharedModel
 from armscope.core.types import Array
@@ -25,14 +26,8 @@ from armscope.physics.effect import Term
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.effects import INTERVAL
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 from armscope.verdict.wording import plain
-
-LEVEL = 0.05
-"""How often something is named although nothing changed: convention."""
-MOST_CHANGES = 8
-AS_GOOD_NATS = 3.0
-"""20 to 1: causes closer than this are not told apart."""
 
 
 def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = False) -> Comparison:
@@ -58,13 +53,13 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     taken: list[Possible] = []
     found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
     joint, tried = 1.0, len(possible)
-    while possible and len(taken) < MOST_CHANGES:
+    while possible and len(taken) < COMPARING.changes:
         scores = model.scores(possible, taken)
         p = min(1.0, min(score.p for score in scores) * tried)
         joint = p if not taken else joint
-        if p > LEVEL:
+        if p > COMPARING.level:
             break
-        sure = [each for each, score in enumerate(scores) if score.p * tried <= LEVEL]
+        sure = [each for each, score in enumerate(scores) if score.p * tried <= COMPARING.level]
         best = max(sure, key=lambda each: scores[each].nats)
         found.append((possible[best], scores[best], _as_good(possible, scores, best)))
         taken.append(possible.pop(best))
@@ -77,7 +72,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         rows=tuple(np.bincount(group).tolist()),
         noise_mm=float(np.sqrt(model.variance(taken))),
         p_nothing_changed=joint,
-        level=LEVEL,
+        level=COMPARING.level,
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
@@ -106,7 +101,7 @@ def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
     """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
     least: dict[str, float] = {}
     zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
-    sizes = model.smallest_seen(zeros, LEVEL / len(possible), POWER) if zeros else ()
+    sizes = model.smallest_seen(zeros, COMPARING.level / len(possible), COMPARING.power) if zeros else ()
     for each, size in zip(zeros, sizes, strict=True):
         least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
     return tuple(Seen(location, size) for location, size in least.items())
@@ -114,7 +109,7 @@ def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
 
 def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) -> tuple[str, ...]:
     ranked = sorted(range(len(possible)), key=lambda each: -scores[each].nats)
-    near = [each for each in ranked if scores[each].nats > scores[best].nats - AS_GOOD_NATS and each != best]
+    near = [each for each in ranked if scores[each].nats > scores[best].nats - INDISTINGUISHABLE_NATS and each != best]
     there = [possible[each].placed for each in near if possible[each].sets == possible[best].sets]
     return tuple(dict.fromkeys(plain(str(each)) for each in there))
 

@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
+from armscope.comparison.constants import COMPARING
 from armscope.core.types import Array
 
 AXES = 3
 """Directions of the poses along which a recording is halved."""
-NO_SURPRISE = 0.5
-"""The smallest probability among halves times their number is chance's at this and above: every other time."""
 STEPS = np.geomspace(1.0, 1e4, 400)
 """Factors that are tried, 2 % apart."""
 
@@ -54,5 +53,7 @@ def overdispersion(between_halves: Iterable[Statistic]) -> float:
         return 1.0
     f, q, free = np.array([(each.f, each.q, each.free) for each in seen]).T
     # a larger factor makes all of them less of a surprise
-    least = bisect_left(STEPS, NO_SURPRISE, key=lambda factor: len(seen) * fdtrc(q, free - q, f / factor).min())
+    least = bisect_left(
+        STEPS, COMPARING.no_surprise, key=lambda factor: len(seen) * fdtrc(q, free - q, f / factor).min()
+    )
     return float(STEPS[min(least, len(STEPS) - 1)])

@@ -6,16 +6,13 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from armscope.comparison.constants import COMPARING
 from armscope.core.numerals import shown_unit, size_of
+from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import capitalised, decimals_for, enumerated, places_in_words
 
-MOST_TOLD = 3
-"""More changes than this are counted in the headline, not told."""
-POWER = 0.9
 """In which share of cases a change is named that "would be seen": convention."""
-MOST_NAMED = 3
-"""Recordings with a change, which are told by name; of more, the first."""
 UNLIKE = {
     "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",
     "grew": "is larger in {where} than in {others}", "shrank": "is smaller in {where} than in {others}",
@@ -95,8 +92,8 @@ class Seen:
 
     Attributes:
         location: the joint.
-        least_rad: of moves of this size a change is named, by this name or another, in `POWER` of cases; infinite
-            where these rows show none.
+        least_rad: of moves of this size a change is named, by this name or another, in `COMPARING.power` of cases;
+            infinite where these rows show none.
     """
 
     location: str
@@ -172,7 +169,7 @@ class Comparison:
     @property
     def told(self) -> str:
         """What changed, as a clause; empty where nothing did."""
-        clauses = [f"{each.title_with_doubt} {self.became(each)}" for each in self.changes[:MOST_TOLD]]
+        clauses = [f"{each.title_with_doubt} {self.became(each)}" for each in self.changes[: WORDS.causes]]
         more = len(self.changes) - len(clauses)
         return capitalised("; ".join([*clauses, *([f"and {more} more"] if more > 0 else [])]))
 
@@ -186,7 +183,7 @@ class Comparison:
         hidden = [each.location for each in self.seen if each not in shown]
         sizes = [f"{size_of(each.least_rad, 'rad')} ({each.location})" for each in dict.fromkeys((least, most))]
         told = f"The zero of a joint that {'differs' if self.of_arms else 'moved'} by {' to '.join(sizes)} or more"
-        told = f"{told} would be noticed in {100 * POWER:.0f} % of cases."
+        told = f"{told} would be noticed in {100 * COMPARING.power:.0f} % of cases."
         hides = f" Moves of {places_in_words(hidden)} would not: base or tool take them up, or the joint stood still."
         return told + hides * bool(hidden)
 
@@ -206,7 +203,7 @@ class Comparison:
         """What became of a cause, and where: "grew in after"; of arms, how one differs from the others."""
         later = len(change.where) - 1
         first, *_ = where = [f'"{name}"' for name in change.where]
-        told_where = enumerated(where) if later < MOST_NAMED else f"{first} and the {later} after it"
+        told_where = enumerated(where) if later < COMPARING.named else f"{first} and the {later} after it"
         if not self.of_arms:
             return f"{change.kind}{_by(change)} in {told_where}{' alone' * bool(self.over_in(change))}"
         told = f'"{change.against[0]}"' if len(change.against) == 1 else "the others"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from armscope.check.preconditions import check_table
+from armscope.comparison.constants import COMPARING
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.physics.frames import free_frames
@@ -17,12 +18,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 CONTEXT = ("time", "temperature", "payload", "approach", "speed", "torque", "sigma")
-
-SAME_POSES = 0.5
-"""Share of each joint's range (5 to 95 % of its angles) that recordings of the same poses have in common: judgement."""
-STILL_RAD = 0.02
-"""A joint that moves less stands still."""
-SAME_PAYLOAD_KG = 0.1
 
 
 def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings, Indices]:
@@ -94,7 +89,7 @@ def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:
     Returns:
         Numbers of recordings; each stands in the first family with whose first member it overlaps.
     """
-    still = np.array([*[STILL_RAD] * tables[0].n_motors, SAME_PAYLOAD_KG])
+    still = np.array([*[COMPARING.still_rad] * tables[0].n_motors, COMPARING.same_payload_kg])
     ranges = [np.quantile(_covered(table), (0.05, 0.95), axis=0) for table in tables]
     families: list[list[int]] = []
     for k, (low, high) in enumerate(ranges):
@@ -104,7 +99,7 @@ def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:
                 np.minimum(high, upper) - np.maximum(low, lower),
                 np.maximum(high, upper) - np.minimum(low, lower),
             )
-            if (shared >= SAME_POSES * either - still).all():
+            if (shared >= COMPARING.same_poses * either - still).all():
                 family.append(k)
                 break
         else:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Statistic, halves, overdispersion
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import point_columns
@@ -25,17 +26,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-PRIOR_MM = 3.0
-"""Of a shared effect at the tool: an arm's own errors are of this size (ISO 9283 accuracies of uncalibrated arms)."""
-MOST_TERMS = 12
-"""Of an effect whose change is tested; free curves are left out: they would stand for any other."""
-UNSEEN = 1e-3
-"""Share of a column's square that must be left beside what is shared for its change to be seen at all."""
-WEIGHINGS = 4
-"""Rounds in which recordings get their weight: in the first a noisy one still pulls the fit of a quiet one."""
-HELD = 1e-9
-"""Penalty on frames and changes of unit length: too little for any that the rows tell."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +61,14 @@ class SharedModel:
         residual = point_residuals(model, table)
         weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
         placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]
-        self.placed = [each for each in placed if len(each.terms) <= MOST_TERMS and not each.nameless]
+        self.placed = [each for each in placed if len(each.terms) <= SHARED.terms and not each.nameless]
         frames = [term for each in free_frames(table, False) for term in each.terms]
         terms = [term for each in self.placed for term in each.terms]
         columns = weight[:, None] * _columns(model, table, [*frames, *terms])
         self.residual = weight * residual.reshape(-1)
         self.frames, self.effects = columns[:, : len(frames)], columns[:, len(frames) :]
         size = np.sqrt(np.mean(self.effects**2, axis=0))
-        self.scale = np.where(size > 0, PRIOR_MM / np.where(size > 0, size, 1), 0.0)
+        self.scale = np.where(size > 0, SHARED.prior_mm / np.where(size > 0, size, 1), 0.0)
         self.plausible = np.array([term.plausible for each in self.placed for term in each.terms])
         self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
         self.dispersion = 1.0
@@ -94,7 +84,7 @@ class SharedModel:
             taken: changes, without which a recording that has one would count as a noisy one.
         """
         self._weigh(self._robust / self.weight)
-        for _ in range(WEIGHINGS):
+        for _ in range(SHARED.weighings):
             base, penalty = self._base(taken)
             hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
             square = (self.residual - base @ (hat @ self.residual)) ** 2
@@ -153,7 +143,7 @@ class SharedModel:
         columns = every[:, told] / size[told]
         across = half @ columns
         values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
-        seen = values > UNSEEN
+        seen = values > SHARED.unseen
         if not seen.any() or free - seen.sum() < 1:
             return Scored(Statistic(0.0, 0, free), 1.0, 0.0)
         along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
@@ -184,7 +174,7 @@ class SharedModel:
         square = np.sum(columns**2, axis=0)
         information = square - np.sum(across**2, axis=0)
         usual = np.array([each.plausible[0] for each in possible])
-        unseen = (square <= variance / usual**2) | (information <= UNSEEN * square)
+        unseen = (square <= variance / usual**2) | (information <= SHARED.unseen * square)
         # t: F of one number is its square, and noise adds to it or takes away
         least = stdtrit(free - 1, 1 - level / 2) + stdtrit(free - 1, power)
         return np.where(unseen, np.inf, least * np.sqrt(self.dispersion * variance / np.where(unseen, 1, information)))
@@ -258,7 +248,7 @@ class SharedModel:
         free = np.hstack([self.frames, *(self.columns(each) for each in taken)])
         free = free / np.maximum(_length(free), 1e-30)
         shared = self.effects[:, kept] * self.scale[kept]
-        small = np.full(free.shape[1], HELD)  # a wrist that was held leaves part of its tool to the base
+        small = np.full(free.shape[1], SHARED.held)  # a wrist that was held leaves part of its tool to the base
         return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
 
     def _left(self, base: Array, penalty: Array, gram: Array | None = None) -> tuple[float, float]:

@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.held_out import residuals_on
 from armscope.calibration.model import LEVELS, Level, set_up
-from armscope.calibration.splits import TRAIN_SHARE, foretold
+from armscope.calibration.splits import foretold
 from armscope.core.averages import rms_distance
 from armscope.core.grouping import named_configuration
 from armscope.core.sampling import spread_evenly
@@ -48,7 +49,7 @@ def regions(arm: Arm, recordings: Recordings) -> Iterator[tuple[str, Indices, In
     configuration = named_configuration(recordings.run, recordings.id)
     for name, values in along.items():
         mean = np.bincount(configuration, values) / np.bincount(configuration)
-        near = np.argsort(mean, kind="stable")[: int(TRAIN_SHARE * len(mean))]
+        near = np.argsort(mean, kind="stable")[: int(CALIBRATING.train_share * len(mean))]
         inside = np.isin(configuration, near)
         yield name, np.flatnonzero(inside), np.flatnonzero(~inside)
 

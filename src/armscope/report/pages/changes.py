@@ -12,9 +12,9 @@ import numpy as np
 import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
+from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
-from armscope.comparison.result import POWER, wave_part
-from armscope.comparison.shared_model import PRIOR_MM
+from armscope.comparison.result import wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
@@ -95,8 +95,8 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         history=history,
         recordings=recordings_table(found),
         seen=seen_table(found),
-        power=POWER,
-        prior_mm=PRIOR_MM,
+        power=COMPARING.power,
+        prior_mm=SHARED.prior_mm,
         files=FILES[1:] if found.changes else (DATA, TABLE),
     )
     return folder / PAGE

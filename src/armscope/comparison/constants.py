@@ -1,0 +1,64 @@
+"""Numbers that decide what changed between recordings; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class ComparingRules(Constants):
+    """What is compared with what, and what of it is told."""
+
+    level: float = constant(0.05, "how often something is named although nothing changed", "convention")
+    power: float = constant(0.9, "share of cases in which a change is named that would be seen", "convention")
+    changes: int = constant(8, "changes of one comparison, at most", "judgement: with more, it is another arm")
+    named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
+    same_poses: float = constant(
+        0.5,
+        "share of each joint's range (5 to 95 % of its angles) that recordings of the same poses have in common",
+        "judgement: the half",
+    )
+    still_rad: float = constant(0.02, "motion below which a joint stands still", "judgement: a degree", unit="rad")
+    same_payload_kg: float = constant(
+        0.1, "difference up to which payloads are the same", "judgement: a screw or a cable", unit="kg"
+    )
+    no_surprise: float = constant(
+        0.5,
+        "probability, times the number of halves, from which the halves differ by chance",
+        "convention: as every other time",
+    )
+
+
+@dataclass(frozen=True)
+class SharedModelRules(Constants):
+    """The model that all recordings share, and what of it may differ."""
+
+    prior_mm: float = constant(
+        3.0,
+        "size of a shared effect at the tool",
+        "judgement: an arm's own errors are of this size (ISO 9283 accuracies of uncalibrated arms)",
+        unit="mm",
+    )
+    terms: int = constant(
+        12,
+        "of an effect whose change is tested, at most",
+        "judgement: free curves are left out, which would stand for any other",
+    )
+    unseen: float = constant(
+        1e-3,
+        "share of a column's square that must be left beside what is shared for its change to be seen",
+        "derived: 3 % of its size at the tool",
+    )
+    weighings: int = constant(
+        4,
+        "rounds in which recordings get their weight",
+        "judgement: in the first a noisy one pulls the fit of a quiet one",
+    )
+    held: float = constant(
+        1e-9, "penalty on frames and changes of unit length", "judgement: too little for any that the rows tell"
+    )
+
+
+COMPARING, SHARED = ComparingRules(), SharedModelRules()
