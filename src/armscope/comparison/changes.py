@@ -17,10 +17,12 @@ from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.other_load import other_load
+from armscope.comparison.dispersion import Scored
+from armscope.comparison.flange_load import ANOTHER_LOAD
+from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.sets import of_same_poses, stacked
-from armscope.comparison.shared_model import Possible, Scored, SharedModel
+from armscope.comparison.shared_model import Possible, SharedModel
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.physics.geometric import JOINT_OFFSET
@@ -79,7 +81,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         seen=seen,
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
-        other_load=other_load(arm, table.motor_angles, changes),
+        other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
 
 
@@ -105,6 +107,23 @@ def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
     for each, size in zip(zeros, sizes, strict=True):
         least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
     return tuple(Seen(location, size) for location, size in least.items())
+
+
+def _worse_as_a_load(model: SharedModel, everything: Sequence[Possible], taken: Sequence[Possible]) -> float | None:
+    """Nats by which rows fit less well to another load at the flange in the place of the changes that follow loads.
+
+    What its numbers cost does not count: one number of a link may be the likelier name of a faint load, and still it
+    may be one.
+    """
+    beside = [each for each in taken if not follows_loads(each.placed.name)]
+    alike = [each for each in taken if follows_loads(each.placed.name)]
+    sets = {each.sets for each in alike}
+    loads = [each for each in everything if each.placed.effect is ANOTHER_LOAD and each.sets in sets]
+    if not loads:
+        return None
+    one_by_one = [model.scores([each], [*beside, *alike[:before]])[0] for before, each in enumerate(alike)]
+    theirs = sum(score.better_fit_nats for score in one_by_one)
+    return theirs - max(score.better_fit_nats for score in model.scores(loads, beside))
 
 
 def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) -> tuple[str, ...]:

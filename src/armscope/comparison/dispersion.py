@@ -32,9 +32,28 @@ class Statistic:
     q: int
     free: float
 
+    @property
+    def price_nats(self) -> float:
+        """What its numbers cost (Schwarz 1978)."""
+        return float(self.q / 2 * np.log(max(self.free, 2.0)))
+
     def p(self, dispersion: float) -> float:
         """How often chance alone gives one as large."""
         return float(fdtrc(self.q, self.free - self.q, self.f / dispersion)) if self.q else 1.0
+
+
+@dataclass(frozen=True)
+class Scored:
+    """How surely a change is one: its F statistic, how likely chance makes it, and by how much it is the likelier."""
+
+    statistic: Statistic
+    p: float
+    nats: float
+
+    @property
+    def better_fit_nats(self) -> float:
+        """By how much the rows are the likelier, whatever its numbers cost."""
+        return self.nats + self.statistic.price_nats
 
 
 def halves(angles: Array) -> Iterator[NDArray[np.bool_]]:

@@ -6,37 +6,46 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Valued
 from armscope.core.types import Array
 from armscope.physics.registry import effect_named
 from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
-from armscope.verdict.effects import INTERVAL
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
 LOOKS_LIKE_PLAY = "backlash"
 """Of a joint that gravity loads from either side: by side alone, where what gives way goes with the load itself."""
 
 
-def follows_loads(change: Change) -> bool:
-    """Whether a change goes with what gravity does to the arm, so that another load would show as it."""
-    known = effect_named(change.effect)
-    return change.effect == LOOKS_LIKE_PLAY or (known is not None and known.family == "elastic")
+def follows_loads(effect: str) -> bool:
+    """Whether a change of an effect goes with what gravity does to the arm, so that another load would show as it."""
+    known = effect_named(effect)
+    return effect == LOOKS_LIKE_PLAY or (known is not None and known.family == "elastic")
 
 
-def other_load(arm: Arm, angles: Array, changes: Sequence[Change]) -> str:
+def other_load(arm: Arm, angles: Array, changes: Sequence[Change], worse_by: float | None = None) -> str:
     """That a changed load at the flange would look like some of the changes, and how large it would have to be.
 
     Args:
         arm: the nominal arm.
         angles: (N, m) of all recordings, rad.
         changes: what was found.
+        worse_by: evidence, nats, by which another load in their place explains less; None where it was not asked.
 
     Returns:
         A sentence; "" where no change follows loads.
     """
-    alike = [each for each in changes if follows_loads(each)]
+    if any(each.effect == ANOTHER_LOAD.name for each in changes):
+        return (
+            "One load at the flange turns all drives like this at once: was another gripper, workpiece or cable on it? "
+            "Then the drives need not have changed."
+        )
+    alike = [each for each in changes if follows_loads(each.effect)]
     if not alike:
         return ""
+    if worse_by is not None and worse_by > INDISTINGUISHABLE_NATS:
+        return "Another load at the flange alone would not look like it."
     mass = _mass(arm, angles, alike)
     size = "" if mass is None else f", by about {mass:+.1f} kg".replace("-", "−")
     what = {True: "None of it need have", False: "The rest stands, but that need not have"}[len(alike) == len(changes)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison, Valued
 from armscope.physics.effect import Effect
 from armscope.physics.registry import effect_named
@@ -41,7 +42,7 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     Returns:
         The words; empty ones of an effect that is not installed any more.
     """
-    known = effect_named(change.effect)
+    known = ANOTHER_LOAD if change.effect == ANOTHER_LOAD.name else effect_named(change.effect)
     if known is None:
         return Remedy("", _why(found, change), "", "", "")
     if found.over_in(change):

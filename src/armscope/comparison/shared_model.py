@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import SHARED
-from armscope.comparison.dispersion import Statistic, halves, overdispersion
+from armscope.comparison.dispersion import Scored, Statistic, halves, overdispersion
+from armscope.comparison.flange_load import load_at_the_flange
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import linearised, point_residuals
@@ -43,15 +44,6 @@ class Possible:
     against: tuple[int, ...]
 
 
-@dataclass(frozen=True)
-class Scored:
-    """How surely a change is one: its F statistic, how likely chance makes it, and by how much it is the likelier."""
-
-    statistic: Statistic
-    p: float
-    nats: float
-
-
 class SharedModel:
     """Frames and shared effects, what they leave, and changes beside them."""
 
@@ -76,6 +68,16 @@ class SharedModel:
         self._noise = self._settled_noise()
         self.weigh_recordings(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
+        if (load := load_at_the_flange(arm, table)) is not None:
+            self._offer(load, _columns(model, table, load.terms))
+
+    def _offer(self, placed: Placed, columns: Array) -> None:
+        """One more effect that may have changed, of columns (3N, q), and that is not among what is shared."""
+        self.placed.append(placed)
+        self.effects = np.hstack([self.effects, self.weight[:, None] * columns])
+        self.scale = np.append(self.scale, np.zeros(len(placed.terms)))
+        self.plausible = np.append(self.plausible, [term.plausible for term in placed.terms])
+        self._start = np.append(self._start, self._start[-1] + len(placed.terms))
 
     def weigh_recordings(self, taken: Sequence[Possible]) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
@@ -152,8 +154,8 @@ class SharedModel:
         # the variance without what the change explains: of the model in which it is free
         without = max(total - gain, 1e-12 * total)
         statistic = Statistic((gain / q) / (without / (free - q)), q, free)
-        # the noise is as unknown as the change: profile likelihood, and what q numbers cost (Schwarz 1978)
-        nats = free / 2 * np.log(total / without) / self.dispersion - q / 2 * np.log(max(free, 2.0))
+        # the noise is as unknown as the change: profile likelihood, and what q numbers cost
+        nats = free / 2 * np.log(total / without) / self.dispersion - statistic.price_nats
         return Scored(statistic, statistic.p(self.dispersion), float(nats))
 
     def smallest_seen(self, possible: Sequence[Possible], level: float, power: float) -> Array:
@@ -193,9 +195,12 @@ class SharedModel:
 
     def _left_over(self, base: Array, penalty: Array) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
+        return np.asarray((self.residual - base @ self._values(base, penalty)) / self.weight)
+
+    def _values(self, base: Array, penalty: Array) -> Array:
+        """Of columns (3N, p) with penalties (p,), by least squares."""
         stacked = np.vstack([base, np.diag(np.sqrt(penalty))])
-        values = np.linalg.lstsq(stacked, np.concatenate([self.residual, np.zeros(len(penalty))]), rcond=None)[0]
-        return np.asarray((self.residual - base @ values) / self.weight)
+        return np.asarray(np.linalg.lstsq(stacked, np.concatenate([self.residual, np.zeros(len(penalty))]))[0])
 
     def own_values(self, number: int, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
         """An effect with a value of its own in every recording.
@@ -208,7 +213,9 @@ class SharedModel:
         Returns:
             Values (count q), SI units, their covariance, and how many numbers are free.
         """
-        base, penalty = self._base(beside, without=number)
+        others = self.scale > 0
+        others[self._at(number)] = False
+        base, penalty = self._base(beside, others)
         own = np.hstack([self.columns_of(number, (k,)) for k in range(count)])
         # what one recording alone does not tell stays at the prior
         scale = np.tile(self._of(self.scale, number), count)
@@ -239,14 +246,11 @@ class SharedModel:
         """(3N, q) an effect's columns in the rows of some recordings."""
         return self.effects[:, self._at(number)] * np.isin(self.group, sets)[:, None]
 
-    def _base(self, taken: Sequence[Possible], without: int | None = None) -> tuple[Array, Array]:
-        """Columns that all changes stand beside, and the penalty on each."""
-        kept: NDArray[np.bool_] = self.scale > 0
-        if without is not None:
-            kept = kept.copy()
-            kept[self._at(without)] = False
+    def _base(self, taken: Sequence[Possible], kept: NDArray[np.bool_] | None = None) -> tuple[Array, Array]:
+        """Columns that all changes stand beside, and the penalty on each; of what is shared, all that can be seen."""
+        kept = self.scale > 0 if kept is None else kept
         free = np.hstack([self.frames, *(self.columns(each) for each in taken)])
-        free = free / np.maximum(_length(free), 1e-30)
+        free = free / np.maximum(np.linalg.norm(free, axis=0), 1e-30)
         shared = self.effects[:, kept] * self.scale[kept]
         small = np.full(free.shape[1], SHARED.held)  # a wrist that was held leaves part of its tool to the base
         return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
@@ -271,10 +275,6 @@ class SharedModel:
             penalty[frames:] = self._noise
             self._noise = max(self._left(base, penalty, gram)[0], 1e-12)
         return self._noise
-
-
-def _length(columns: Array) -> Array:
-    return np.asarray(np.sqrt(np.sum(columns**2, axis=0)))
 
 
 def _columns(model: FittedModel, table: Recordings, terms: Sequence[Term]) -> Array:
