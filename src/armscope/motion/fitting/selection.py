@@ -15,6 +15,7 @@ from armscope.inference.model_space import ModelSpace
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.fitting.clocks import parted_where_they_differ
 from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined, sits_nowhere
@@ -51,7 +52,7 @@ def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
         elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
             laws.append((cause, coefficients[columns]))
         if cause.cause is catalogue.DELAY:
-            delay[cause.joints[0]] += coefficients[columns[0]]
+            delay[list(cause.joints)] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
     gain = gain_of(layout, coefficients)
@@ -180,7 +181,7 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = settled(search, named_first(search, best))
+    best = parted_where_they_differ(search, settled(search, named_first(search, best)), rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
 

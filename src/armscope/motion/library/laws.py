@@ -14,10 +14,10 @@ from scipy.interpolate import BSpline, make_interp_spline
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
-from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
+from armscope.motion.library.read_late import delayed, low_passed
 from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
@@ -97,16 +97,6 @@ def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, co
     return np.column_stack([changing, friction]) if constant else changing
 
 
-def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
-    """What a delay changes, per second of it: exactly at the delay given, along the slope for none."""
-    torque = m.predicted[:, joints[0]]
-    if delay == 0:
-        return np.asarray(-np.gradient(torque, 1 / m.rate))
-    if m.dry is None:
-        return (seen_later(m.signals.time, m.path, joints[0], delay) - torque) / delay
-    return (m.dry.delayed(m.signals, m.path, joints[0], delay) - torque) / delay
-
-
 def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
     """Its stiffness, and its pull in the middle of the range: where it rests is not known."""
     turned = m.signals.q[:, joints[0]] - middle
@@ -175,7 +165,8 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 
 
 CLINGING = ("clinging over torques", "clinging over smooth torques")
-FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", *CLINGING})
+READ_LATE = ("delayed torque", "low-passed torque")
+FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", *READ_LATE, *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
@@ -263,7 +254,8 @@ LAWS: dict[str, Callable[..., Array]] = {
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": _read,
-    "delayed torque": _delayed,
+    "delayed torque": delayed,
+    "low-passed torque": low_passed,
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
     "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),
