@@ -38,6 +38,7 @@ class LibraryRules(Constants):
         0.02, "of a column, beyond the others of its cause, that must be its own", "judgement: less can't be told apart"
     )
     least_body: float = constant(0.1, "of the moving link's mass, of a body", "judgement: lighter ones show too little")
+    swing_poses: int = constant(100, "in which a link's swing is sought", "judgement: a heavy one is among them")
     any_motion: int = constant(
         30,
         "of a motion at which columns of the library are compared",

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
@@ -123,20 +124,32 @@ def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float
 
     The link is where its motor is, less compliance x torque of the links there (Spong 1987): exactly to second order
     at the compliance given, along the slope for none. That torque is low-passed where the motion ends, for it holds two
-    derivatives of the position, and is derived twice.
+    derivatives of the position, and is derived twice; or, where that is lower, where the link swings on its drive:
+    beyond, it does not follow its motor, and each step towards it would only make noise of the positions larger.
     """
     at, every = joints[0], list(joints)
     if compliance == 0:
         by_motion = zip(m.slopes, derived(m, m.rigid[:, at], cutoff), strict=True)
         return np.asarray(-sum(slope[:, every, at] * lag[:, None] for slope, lag in by_motion))[:, :, None]
     assert m.bodies is not None
-    torque = m.rigid
+    torque, cutoff = m.rigid, min(cutoff, _swing_hz(m, at, compliance))
     for _ in range(2):
         behind = [values.copy() for values in m.motion]
         for values, lag in zip(behind, derived(m, torque[:, at], cutoff), strict=True):
             values[:, at] -= compliance * lag
         torque = m.bodies.torques(*behind)
     return np.asarray((torque - m.bodies.torques(*m.motion))[:, every, None] / compliance)
+
+
+def _swing_hz(m: Moment, joint: int, compliance: float) -> float:
+    """At which frequency a link swings on its drive, motor held, in its heaviest pose."""
+    assert m.bodies is not None
+    few = slice(None, None, max(len(m.rigid) // LIBRARY.swing_poses, 1))
+    q = m.motion[0][few]
+    still, turning = np.zeros_like(q), np.zeros_like(q)
+    turning[:, joint] = 1.0
+    inertia = (m.bodies.torques(q, still, turning) - m.bodies.torques(q, still, still))[:, joint]
+    return float(1 / (2 * np.pi * np.sqrt(max(abs(compliance) * float(inertia.max()), 1e-300))))
 
 
 def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
