@@ -205,10 +205,13 @@ def starting_weights(rows: MotionRows) -> TorqueWeights:
     With all causes a short motion would have no noise left, and without them a slow cause would count as noise that
     lasts, of which nothing then asks for a cause. So it is told from what each leaves of motion that it was fitted to
     and that it was not, together (`noise_of`): all causes at once foretell other motion badly, and what they miss there
-    looks like a slow cause, too. At each joint the one counts of which less lasts.
+    looks like a slow cause, too. At each joint the one counts of which less lasts. What all joints have in common
+    is there once more at each of them.
     """
     layout = rows.layout
-    choices = (np.concatenate([layout.own, layout.inertial, layout.response]), np.arange(layout.width))
+    common = [columns for cause, columns in zip(layout.placed, layout.columns, strict=True) if cause.common]
+    all_but_common = np.delete(np.arange(layout.width), np.concatenate([np.empty(0, dtype=np.intp), *common]))
+    choices = (np.concatenate([layout.own, layout.inertial, layout.response]), all_but_common)
     ordinary, all_causes = (estimate_weights(rows, *left) for left in left_inside_and_apart(rows, choices))
     return ordinary.where_better(all_causes)
 
