@@ -68,6 +68,15 @@ def test_an_arm_without_fault_is_drawn_without_colours_and_without_a_colour_bar(
     assert not any("%" in text for text in texts(figure))
 
 
+def test_a_joint_of_no_known_law_is_hatched_over_its_colour_and_the_legend_says_so(arm, angles):
+    plain, hatched = (draw_arm(arm, angles, {"joint 2": 0.6}, nameless) for nameless in ((), {"joint 2"}))
+    assert "no known" not in texts(plain)
+    assert {"no known", "law", "J2  60 %"} <= set(texts(hatched))
+    lines = [sum(path.get("stroke-width") == "1.1" for path in shapes(each)) for each in (plain, hatched)]
+    assert lines[1] - lines[0] >= 2 + 2, "on the disc, and in the legend"
+    assert any(path.get("fill") == share_colour(1.0) for path in shapes(hatched))
+
+
 def test_what_is_no_part_of_the_arm_appears_only_when_it_is_to_blame(arm, angles):
     assert not any("instrument" in t or "payload" in t for t in texts(draw_arm(arm, angles, {"joint 1": 0.5})))
     blamed = texts(draw_arm(arm, angles, {"instrument": 0.5, "payload": 0.2}))

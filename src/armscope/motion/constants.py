@@ -37,9 +37,8 @@ class LibraryRules(Constants):
     redundant_columns: float = constant(
         0.02, "of a column, beyond the others of its cause, that must be its own", "judgement: less can't be told apart"
     )
-    least_body: float = constant(
-        0.1, "of the moving link's mass, of a body that may be missing", "judgement: lighter ones show too little"
-    )
+    least_body: float = constant(0.1, "of the moving link's mass, of a body", "judgement: lighter ones show too little")
+    swing_poses: int = constant(100, "in which a link's swing is sought", "judgement: a heavy one is among them")
     any_motion: int = constant(
         30,
         "of a motion at which columns of the library are compared",
@@ -67,6 +66,7 @@ class LibraryRules(Constants):
     delays_s: tuple[float, ...] = constant(
         (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
     )
+    joints_of_a_clock: int = constant(3, "for one delay of all", "judgement: two may be alike by chance", unit="joints")
     few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")
     most_waves: int = constant(400, "per turn that are tried", "derived: two per motor turn behind a gear of 200 to 1")
     waves_at_once: int = constant(50, "formed at a time", "judgement: memory; 30,000 samples of these are 24 MB")

@@ -17,6 +17,7 @@ from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.fitting.side_widths import widths_of_sides
 from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -59,7 +60,6 @@ from armscope.motion.summary.late_friction import told_late
 from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
-from armscope.motion.summary.one_clock import as_one, joints_in_motion, told_of_one_clock
 from armscope.motion.summary.shares import shares_of
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
@@ -162,7 +162,8 @@ def diagnose_motion(
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
-    layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current")
+    seen = replace(seen, width_of_sides=widths_of_sides(arm, train, how))
+    layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
@@ -257,11 +258,10 @@ def _judged(
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
-    moving = joints_in_motion(selected.rows.still)
     likeliest = likeliest_in_words(selected) if errors.only_unnamed or masses_lead(found, errors) else ""
     verdict = MotionVerdict(
         answer=answer,
-        headline=headline(as_one(found, moving), errors, lasting, likeliest),
+        headline=headline(found, errors, lasting, likeliest),
         mismatch=mismatch,
         effects=tuple(found),
         unexplained=left,
@@ -272,7 +272,7 @@ def _judged(
         waterfall=steps,
         identifiable=identifiable(selected),
         preparation="",
-        notices=(*told_of_one_clock(found, moving), *told_of_lasting(lasting)),
+        notices=tuple(told_of_lasting(lasting)),
         rows=len(selected.rows),
         samples=0,
         runs=(),

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 
 from armscope.motion.fitting.selected import SelectedCauses
@@ -25,3 +27,11 @@ def test_the_joint_most_of_whose_torque_lasts_comes_first(monkeypatch: pytest.Mo
     monkeypatch.setattr(module, "friction_by_run", lambda selected: ())
     monkeypatch.setattr(module, "differing_runs", lambda selected: (again,))
     assert module.left_over(cast(SelectedCauses, Nothing())) == (other, own)
+
+
+def test_its_shares_are_of_what_friction_leaves_of_all_joints_as_rows_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    weights = SimpleNamespace(sigma=np.array([1.0, 2.0]), correlated=np.ones(2), row=np.ones((10, 2)))
+    monkeypatch.setattr(module, "left_by_friction", lambda selected: np.tile([1.0, 6.0], (10, 1)))
+    selected = cast(SelectedCauses, SimpleNamespace(weights=weights))
+    found = module.shares_left_over(selected, [LastingTorque(1, "angle", 3.0, 0.2, 0.25)])
+    assert found == {1: pytest.approx((3 / 2) ** 2 / (1 + (6 / 2) ** 2))}

@@ -99,6 +99,7 @@ class _Run:
                 if again.all() or not again.any() or np.array_equal(again, there):
                     break
                 there = again
+        there = self._held(there)
         turns = np.flatnonzero(np.diff(there.astype(np.int8)))
         if not len(turns) or self._gained(there) < price * (len(turns) + 1):
             return None
@@ -170,15 +171,18 @@ class _Run:
         return np.asarray((row * fit.of_load * (without - fit.of_load / 2)) @ self.unit)
 
     def _held(self, there: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Without spells, with or without the load, that are shorter than any gripper's."""
+        """Without spells, with or without the load, that are shorter than any gripper's.
+
+        Nor at the ends of the run: in a few rows there a load fits whatever the low-pass of the positions left.
+        """
         while True:
-            turns = np.flatnonzero(np.diff(there.astype(np.int8)))
-            long = np.diff(self.time[turns])
-            if not len(long) or long.min() >= CHANGE.least_held_s:
+            ends = np.r_[-1, np.flatnonzero(np.diff(there.astype(np.int8))), len(there) - 1]
+            long = self.time[ends[1:]] - self.time[ends[:-1].clip(0)]
+            if len(long) == 1 or long.min() >= CHANGE.least_held_s:
                 return there
             n = int(np.argmin(long))
             there = there.copy()
-            there[turns[n] + 1 : turns[n + 1] + 1] ^= True
+            there[ends[n] + 1 : ends[n + 1] + 1] ^= True
 
     def _gained(self, there: NDArray[np.bool_]) -> float:
         """Nats by which the run is likelier with the load, each joint by its own noise."""

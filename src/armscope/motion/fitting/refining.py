@@ -8,6 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY, NOISE
+from armscope.motion.fitting.clocks import rivals_at_hand
 from armscope.motion.fitting.linkages import remounted
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
@@ -59,7 +60,7 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
             more, unsure = lag_step(selected, number)
             better = float(values[0]) + more
             settled = NOISE.settled * max(float(error[0]), unsure)
-            rests = max(abs(better - now), abs(float(values[0]) - now)) < settled
+            rests = abs(better - now) < settled and (cause.common or abs(float(values[0]) - now) < settled)
             better = between.next(frozenset(selected.best.candidates), number, now, better)
         elif cause.cause is catalogue.COMPLIANCE:
             better = float(values[0])
@@ -71,6 +72,8 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
         moved = moved or not rests
+    for number, rival, elsewhere in rivals_at_hand(selected):
+        placed[number], moved = rival, moved or elsewhere
     for number in range(len(placed)):
         if (
             is_anywhere(placed[number]) and number not in selected.best.candidates

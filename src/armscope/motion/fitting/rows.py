@@ -208,7 +208,7 @@ class _Piece:
         self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain
         arm, signals = layout.arm, samples.signals
         self.arm, self.signals = arm, signals
-        self.background = own_columns(arm, signals, model.delay)
+        self.background = own_columns(arm, signals, model.delay, width=layout.width_of_sides)
         inertial = model.inertial_in(signals.run)
         rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
@@ -217,7 +217,7 @@ class _Piece:
         gravity = None
         if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
-        dry = DryFriction.of(arm, model.background[:, 1])
+        dry = DryFriction.of(arm, model.background[:, 1], width=layout.width_of_sides)
         rate = how.rate / signals.stride
         moment = Moment(
             signals=signals,

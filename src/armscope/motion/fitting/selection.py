@@ -15,6 +15,7 @@ from armscope.inference.model_space import ModelSpace
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.fitting.clocks import parted_where_they_differ
 from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined, sits_nowhere
@@ -51,7 +52,7 @@ def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
         elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
             laws.append((cause, coefficients[columns]))
         if cause.cause is catalogue.DELAY:
-            delay[cause.joints[0]] += coefficients[columns[0]]
+            delay[list(cause.joints)] += coefficients[columns[0]]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
     gain = gain_of(layout, coefficients)
@@ -180,7 +181,7 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = settled(search, named_first(search, best))
+    best = parted_where_they_differ(search, settled(search, named_first(search, best)), rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
 
@@ -204,10 +205,13 @@ def starting_weights(rows: MotionRows) -> TorqueWeights:
     With all causes a short motion would have no noise left, and without them a slow cause would count as noise that
     lasts, of which nothing then asks for a cause. So it is told from what each leaves of motion that it was fitted to
     and that it was not, together (`noise_of`): all causes at once foretell other motion badly, and what they miss there
-    looks like a slow cause, too. At each joint the one counts of which less lasts.
+    looks like a slow cause, too. At each joint the one counts of which less lasts. What all joints have in common
+    is there once more at each of them.
     """
     layout = rows.layout
-    choices = (np.concatenate([layout.own, layout.inertial, layout.response]), np.arange(layout.width))
+    common = [columns for cause, columns in zip(layout.placed, layout.columns, strict=True) if cause.common]
+    all_but_common = np.delete(np.arange(layout.width), np.concatenate([np.empty(0, dtype=np.intp), *common]))
+    choices = (np.concatenate([layout.own, layout.inertial, layout.response]), all_but_common)
     ordinary, all_causes = (estimate_weights(rows, *left) for left in left_inside_and_apart(rows, choices))
     return ordinary.where_better(all_causes)
 

@@ -63,7 +63,7 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         families=tuple(families),
         candidates=_candidates(layout, barred),
         starts=tuple(starts),
-        exchanges=tuple(_changes_for_payloads(layout, barred)),
+        exchanges=(*_changes_for_payloads(layout, barred), *_one_delay_for_many(layout, barred)),
     )
 
 
@@ -87,6 +87,14 @@ def _changes_for_payloads(layout: TorqueLayout, barred: frozenset[int]) -> Itera
         yield Exchange(taken_back, tuple(n for n in changing if layout.placed[n].runs == run))
 
 
+def _one_delay_for_many(layout: TorqueLayout, barred: frozenset[int]) -> Iterator[Exchange]:
+    """One delay that all joints have in common for those of joints."""
+    delays = [n for n, cause in enumerate(layout.placed) if cause.cause is catalogue.DELAY]
+    common = tuple(n for n in delays if layout.placed[n].common and n not in barred)
+    if common:
+        yield Exchange({n: None for n in delays if not layout.placed[n].common}, common)
+
+
 def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate, ...]:
     placed = layout.placed
     beside: dict[str, list[int]] = {}
@@ -96,6 +104,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
         excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
         excludes |= frozenset(n for n in changing if _at_the_same_moments(cause, placed[n]))
+        excludes |= frozenset(n for n, other in enumerate(placed) if _of_one_clock(cause, other))
         candidates.append(
             Candidate(
                 kind=cause.cause.name,
@@ -194,6 +203,11 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
 def _at_the_same_moments(one: PlacedCause, other: PlacedCause) -> bool:
     """Whether one is a load that comes and goes, and the other a reading that jumps with it: either is all there is."""
     return {one.cause, other.cause} == set(CHANGES) and one.runs == other.runs
+
+
+def _of_one_clock(one: PlacedCause, other: PlacedCause) -> bool:
+    """Whether one is a delay of all joints and the other a joint's own: where they differ, each has its own."""
+    return one.cause is other.cause is catalogue.DELAY and one.common != other.common
 
 
 def _at_all_temperatures(cause: PlacedCause) -> Cause | None:

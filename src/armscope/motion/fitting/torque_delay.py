@@ -5,6 +5,10 @@ most of a joint's torque, how high its steps are at that delay says that the cho
 of the delay itself: when friction changes sides has a number of its own (`layout.OWN_NAMES`). What the slope at the
 delay explains of what is left between the reversals is by how much it must move (Gauss-Newton, with every other column
 free within its prior).
+
+So is a joint's own chord: how high it is, is as much a matter of how that joint's friction changes sides. A chord that
+all joints have in common is no joint's friction, and stays as it is: between reversals it is the slope once more, and
+where both were free, a chord that is too short would ask for a slope that is too steep, without end.
 """
 
 from __future__ import annotations
@@ -23,10 +27,10 @@ from armscope.motion.samples.constants import FILTER
 
 
 def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
-    """By how much later than fitted a joint's torque is.
+    """By how much later than fitted a joint's torque is, or that of all joints.
 
-    Two things tell it: what is left between the moments at which friction changes sides, and these moments, which lie
-    as far from the delay as the prior of their own number has it.
+    Two things tell it of each joint: what is left between the moments at which friction changes sides, and these
+    moments, which lie as far from the delay as the prior of their own number has it.
 
     Args:
         selected: the selection.
@@ -35,19 +39,41 @@ def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
     Returns:
         Seconds, at most as many as rows lie apart, and their standard error with all other columns as free as they are.
     """
+    rows = selected.rows
+    told = [lag_of(selected, joint, number) for joint in rows.layout.placed[number].joints]
+    information = sum(known for _, known in told)
+    if information <= 0:
+        return 0.0, PRIOR.turning_s
+    step = sum(step * known for step, known in told) / information
+    apart = float(np.median(np.diff(rows.time)))
+    return float(np.clip(step, -apart, apart)), float(information**-0.5)
+
+
+def lag_of(selected: SelectedCauses, joint: int, number: int) -> tuple[float, float]:
+    """By how much later than fitted one joint's torque is.
+
+    Of a joint without dry friction only what is left tells it, and of one that hardly moves nothing does.
+
+    Args:
+        selected: the selection.
+        joint: from 0.
+        number: of the delay that is chosen there, among the placed causes.
+
+    Returns:
+        Seconds, and how well that is known: one over its variance.
+    """
     rows, best, scale = selected.rows, selected.best, selected.problem.scale
-    (joint,) = rows.layout.placed[number].joints
     among = np.flatnonzero((selected.weights.row[:, joint] > 0) & _between_reversals(rows, joint))
     unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
     root = np.sqrt(unit * selected.weights.row[among, joint])[:, None]
-    X = root * columns_of(selected, joint, best.columns)[among] / scale[best.columns]
+    common = rows.layout.placed[number].common
+    others = ~np.isin(best.columns, rows.layout.columns[number] if common else [])
+    X = root * columns_of(selected, joint, best.columns[others])[among] / scale[best.columns[others]]
     slope, left = root[:, 0] * _slope(selected, joint)[among], root[:, 0] * selected.residuals[among, joint]
-    step, information = _apart(X, 1 / best.variance, slope, left)
+    step, information = _apart(X, 1 / best.variance[others], slope, left)
     turning, unsure = _turning(selected, joint)
     both = information + unsure**-2
-    step = (information * step + turning / unsure**2) / both
-    apart = float(np.median(np.diff(rows.time)))
-    return float(np.clip(step, -apart, apart)), float(both**-0.5)
+    return (information * step + turning / unsure**2) / both, both
 
 
 class Between:
@@ -90,7 +116,9 @@ def _turning(selected: SelectedCauses, joint: int) -> tuple[float, float]:
     later = layout.reversals[joint, 1]
     dry = abs(selected.coefficients[OWN * joint + 1] + np.nan_to_num(layout.arm.stated_background[joint, 1]))
     place = np.flatnonzero(best.columns == later)
-    if not len(place) or dry <= 0:
+    if dry <= 0:
+        return 0.0, np.inf
+    if not len(place):
         return 0.0, PRIOR.turning_s
     free = float(np.sqrt(best.variance[place[0]])) / selected.problem.scale[later]
     return float(selected.coefficients[later] / dry), free / dry

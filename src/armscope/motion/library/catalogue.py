@@ -139,6 +139,8 @@ DELAY = Cause(
     "Shift the torque back by the delay, or simulate the delay.",
     clause=clauses.delay_clause,
     remedy=remedies.shifted,
+    confirm_common="See whether torque and position come with one time stamp, by one bus, and which filter torques "
+    "pass. Shift the recorded torque of all joints against the motion and watch the difference.",
     open_clause=clauses.open_delay_clause,
     open_cure="Change nothing for it yet. Turn the joint to and fro at two speeds: friction that clings comes back "
     "over the same angle, a delay after the same time.",

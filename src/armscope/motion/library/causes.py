@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.library.clauses import Clause
+from armscope.motion.library.clauses import ALL_JOINTS, Clause
 from armscope.motion.library.dry_friction import DryFriction
 from armscope.motion.library.remedies import Remedy
 from armscope.motion.samples.constants import CUTOFF
@@ -38,6 +38,7 @@ class Cause:
         clause: what a headline says of it; its title and size where not given.
         remedy: its cure with the numbers found; the cure as it stands where not given.
         open_clause, open_cure: both where its number is not determined.
+        confirm_common: how it is confirmed where all joints have it in common; as elsewhere where not given.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Cause:
     remedy: Remedy | None = field(default=None, repr=False, compare=False)
     open_clause: Clause | None = field(default=None, repr=False, compare=False)
     open_cure: str = field(default="", repr=False, compare=False)
+    confirm_common: str = field(default="", repr=False, compare=False)
 
     @property
     def nameless(self) -> bool:
@@ -153,6 +155,11 @@ class PlacedCause:
     expected: tuple[float, ...] = ()
 
     @property
+    def common(self) -> bool:
+        """Whether it is one cause of all joints."""
+        return self.location == ALL_JOINTS
+
+    @property
     def width(self) -> int:
         """Number of its columns."""
         return len(self.parameters)
@@ -186,6 +193,7 @@ class Seen:
         regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
         waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
         both_sides: (m,) whether each joint's link was recorded beside its motor; None where none was.
+        width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
     """
 
     arm: MovingArm
@@ -202,6 +210,7 @@ class Seen:
     motion_hz: float = CUTOFF.widest_hz
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
     both_sides: NDArray[np.bool_] | None = None
+    width_of_sides: Array | None = None
 
     def unit(self, joint: int) -> str:
         """Of a joint's position."""

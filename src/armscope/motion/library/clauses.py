@@ -21,6 +21,8 @@ Numbers = dict[str, Parameter]
 Clause = Callable[[FoundCause, Numbers], str]
 SCALE = "torque"
 """What a sensor that bends follows."""
+ALL_JOINTS = "all joints"
+"""Where something is that all joints have in common, by one number: the clock or the filter of what reads torques."""
 
 
 def amount(parameter: Parameter, sign: bool = False) -> str:
@@ -108,12 +110,18 @@ def delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Torque recorded late, or early."""
     delay = numbers["delay"]
     side = "late" if delay.value > 0 else "early"
-    return f"the torque of {cause.location} was recorded {amount(delay)} too {side}"
+    read = f"the torque of {cause.location} was recorded {amount(delay)} too {side}"
+    return f"{read}: one clock or one filter" if cause.location == ALL_JOINTS else read
 
 
 def open_delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     """What a delay is whose sign or size is open: all that it moves is when friction changes sides."""
     farthest = max(map(abs, numbers["delay"].interval))
+    if cause.location == ALL_JOINTS:
+        return (
+            "where joints reverse, friction does not change sides as the model's does, or all torques are recorded up "
+            f"to {rounded(1e3 * farthest)} ms early or late: this motion does not tell which"
+        )
     return (
         f"where {cause.location} reverses, its friction does not change sides as the model's does, or its torque is "
         f"recorded up to {rounded(1e3 * farthest)} ms early or late: this motion does not tell which"

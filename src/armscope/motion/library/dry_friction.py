@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.library.sides import coulomb_width, sharp_width, side
+from armscope.motion.library.sides import blunt_width, sharp_width, side
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.dynamics import MovingArm
 
@@ -47,19 +47,20 @@ class DryFriction:
     turning: Array
 
     @classmethod
-    def of(cls, arm: MovingArm, torque: Array, turning: Array | float = 0.0, sharper: float = 1.0) -> DryFriction:
-        """As fits have it, or ``sharper`` times as sharp.
+    def of(cls, arm: MovingArm, torque: Array, turning: Array | float = 0.0, width: Array | None = None) -> DryFriction:
+        """As sharp as fits take it to be, or within a width.
 
         Args:
             arm: the arm.
             torque: (m,) N m (N).
             turning: (m,) s by which it changes sides later than the speed.
-            sharper: times, than fits take it to change sides.
+            width: (m,) rad/s (m/s) within which it changes sides.
 
         Returns:
             It.
         """
-        return cls(torque, sharp_width(arm) / sharper, np.broadcast_to(np.asarray(turning, dtype=float), torque.shape))
+        width = sharp_width(arm) if width is None else width
+        return cls(torque, width, np.broadcast_to(np.asarray(turning, dtype=float), torque.shape))
 
     def side(self, signals: Signals, joint: int, delay: float = 0.0, width: float | None = None) -> Array:
         """(N,) side of a joint's friction, -1 ... 1, some time ago.
@@ -132,7 +133,7 @@ class DryFriction:
 
 
 def own_columns(
-    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, sharper: float = 1.0
+    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, width: Array | None = None
 ) -> Array:
     """What every joint has, per unit of each.
 
@@ -141,20 +142,21 @@ def own_columns(
         signals: N samples.
         delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
         turning: (m,) s by which friction changes sides later than the speed.
-        sharper: times, than fits take it to change sides.
+        width: (m,) rad/s (m/s) within which it changes sides; as sharp as fits take it to be where not given.
 
     Returns:
         (N, m, 6) of `layout.OWN_NAMES`.
     """
-    width = sharp_width(arm) / sharper
+    width = sharp_width(arm) if width is None else width
+    blunter = blunt_width(arm, width)
     at = replace(signals, dq=signals.dq - signals.ddq * turning)
     turned = side(at, width)
-    before, blunt = turned, side(at, coulomb_width(arm))
+    before, blunt = turned, side(at, blunter)
     late = np.flatnonzero(delay)
     if len(late):
-        dry, before = DryFriction.of(arm, np.ones(arm.n_motors), turning, sharper), turned.copy()
+        dry, before = DryFriction.of(arm, np.ones(arm.n_motors), turning, width), turned.copy()
         for j in map(int, late):
             before[:, j] = dry.side(signals, j, delay[j])
-            blunt[:, j] = dry.side(signals, j, delay[j], coulomb_width(arm)[j])
+            blunt[:, j] = dry.side(signals, j, delay[j], blunter[j])
     later = -np.gradient(before, signals.period, axis=0)
     return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunt - before, later], axis=2)

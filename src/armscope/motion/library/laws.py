@@ -12,12 +12,13 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
-from armscope.motion.library.dry_friction import seen_later
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
+from armscope.motion.library.read_late import delayed, low_passed
 from armscope.motion.library.sides import side
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
@@ -97,16 +98,6 @@ def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, co
     return np.column_stack([changing, friction]) if constant else changing
 
 
-def _delayed(m: Moment, joints: tuple[int, ...], delay: float = 0.0) -> Array:
-    """What a delay changes, per second of it: exactly at the delay given, along the slope for none."""
-    torque = m.predicted[:, joints[0]]
-    if delay == 0:
-        return np.asarray(-np.gradient(torque, 1 / m.rate))
-    if m.dry is None:
-        return (seen_later(m.signals.time, m.path, joints[0], delay) - torque) / delay
-    return (m.dry.delayed(m.signals, m.path, joints[0], delay) - torque) / delay
-
-
 def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
     """Its stiffness, and its pull in the middle of the range: where it rests is not known."""
     turned = m.signals.q[:, joints[0]] - middle
@@ -133,20 +124,32 @@ def _behind(m: Moment, joints: tuple[int, ...], cutoff: float, compliance: float
 
     The link is where its motor is, less compliance x torque of the links there (Spong 1987): exactly to second order
     at the compliance given, along the slope for none. That torque is low-passed where the motion ends, for it holds two
-    derivatives of the position, and is derived twice.
+    derivatives of the position, and is derived twice; or, where that is lower, where the link swings on its drive:
+    beyond, it does not follow its motor, and each step towards it would only make noise of the positions larger.
     """
     at, every = joints[0], list(joints)
     if compliance == 0:
         by_motion = zip(m.slopes, derived(m, m.rigid[:, at], cutoff), strict=True)
         return np.asarray(-sum(slope[:, every, at] * lag[:, None] for slope, lag in by_motion))[:, :, None]
     assert m.bodies is not None
-    torque = m.rigid
+    torque, cutoff = m.rigid, min(cutoff, _swing_hz(m, at, compliance))
     for _ in range(2):
         behind = [values.copy() for values in m.motion]
         for values, lag in zip(behind, derived(m, torque[:, at], cutoff), strict=True):
             values[:, at] -= compliance * lag
         torque = m.bodies.torques(*behind)
     return np.asarray((torque - m.bodies.torques(*m.motion))[:, every, None] / compliance)
+
+
+def _swing_hz(m: Moment, joint: int, compliance: float) -> float:
+    """At which frequency a link swings on its drive, motor held, in its heaviest pose."""
+    assert m.bodies is not None
+    few = slice(None, None, max(len(m.rigid) // LIBRARY.swing_poses, 1))
+    q = m.motion[0][few]
+    still, turning = np.zeros_like(q), np.zeros_like(q)
+    turning[:, joint] = 1.0
+    inertia = (m.bodies.torques(q, still, turning) - m.bodies.torques(q, still, still))[:, joint]
+    return float(1 / (2 * np.pi * np.sqrt(max(abs(compliance) * float(inertia.max()), 1e-300))))
 
 
 def derived(m: Moment, torque: Array, cutoff: float) -> tuple[Array, Array, Array]:
@@ -175,7 +178,8 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 
 
 CLINGING = ("clinging over torques", "clinging over smooth torques")
-FOLLOWS_MODEL = frozenset({"load friction", "delayed torque", "powers of torque", *CLINGING})
+READ_LATE = ("delayed torque", "low-passed torque")
+FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", *READ_LATE, *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
@@ -263,7 +267,8 @@ LAWS: dict[str, Callable[..., Array]] = {
     "warm speed": _warm_speed,
     "warm side": _warm_side,
     "torque": _read,
-    "delayed torque": _delayed,
+    "delayed torque": delayed,
+    "low-passed torque": low_passed,
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
     "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),

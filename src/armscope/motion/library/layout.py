@@ -35,11 +35,13 @@ class TorqueLayout:
         arm: the arm.
         placed: the causes that compete.
         with_gains: whether torques come from currents, whose gains are known to some percent.
+        width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
     """
 
     arm: MovingArm
     placed: tuple[PlacedCause, ...]
     with_gains: bool
+    width_of_sides: Array | None = None
 
     @property
     def own(self) -> Indices:

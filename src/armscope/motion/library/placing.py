@@ -13,11 +13,13 @@ from armscope.core.types import Array
 from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
+from armscope.motion.library.clauses import ALL_JOINTS
 from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.powers import with_power
+from armscope.motion.library.read_late import LATE_BY_ORDER
 from armscope.motion.library.sides import coulomb_width, sharp_width
 from armscope.robot.dynamics import MovingArm
 
@@ -27,6 +29,7 @@ def place_causes(seen: Seen) -> list[PlacedCause]:
     moving = [int(j) for j in np.flatnonzero(seen.moving)]
     placed = [cause for joint in moving for cause in _background(seen, joint)]
     placed += [cause for joint in moving for cause in _at_joint(seen, joint)]
+    placed += _one_clock(moving)
     inertias = _torque_of_inertias(seen.arm)
     placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other, inertias)]
     return [*placed, *place_masses(seen)]
@@ -69,6 +72,26 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
             yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
 
 
+def _one_clock(moving: list[int]) -> list[PlacedCause]:
+    """One delay of all torques: they are read by another clock than the motion, or through one filter."""
+    if len(moving) < LIBRARY.joints_of_a_clock:
+        return []
+    joints, names = tuple(moving), (("delay", "s"),)
+    laws = {f"{delay:.3g} s": Law("delayed torque", joints, (delay,)) for delay in LIBRARY.delays_s}
+    for order in LATE_BY_ORDER:
+        named = {f"{delay:.3g} s, order {order}": (order, delay) for delay in LIBRARY.delays_s}
+        laws |= {variant: Law("low-passed torque", joints, numbers) for variant, numbers in named.items()}
+    return [
+        PlacedCause(catalogue.DELAY, ALL_JOINTS, "torque", names, joints, law, variant=variant, multiplicity=len(laws))
+        for variant, law in laws.items()
+    ]
+
+
+def _sides(seen: Seen) -> Array:
+    """(m,) speed within which each joint's friction changes sides."""
+    return sharp_width(seen.arm) if seen.width_of_sides is None else seen.width_of_sides
+
+
 @dataclass(frozen=True, eq=False)
 class _Joint:
     """A joint at which causes are placed."""
@@ -91,8 +114,8 @@ class _Joint:
 
     @property
     def sharp(self) -> float:
-        """The least of it."""
-        return float(sharp_width(self.seen.arm)[self.number])
+        """The least of it, or that within which it does so here."""
+        return float(_sides(self.seen)[self.number])
 
     @property
     def both_ways(self) -> bool:
@@ -118,7 +141,7 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
     torque, unit = at.torque, at.unit
     by_side = (("viscous_difference", f"{torque} s/{unit}"),)
     yield at.cause(catalogue.ASYMMETRY, "direction", by_side, "absolute speed")
-    fastest, slowest = float(np.abs(at.seen.dq[at.number]).max()), LIBRARY.slow * at.width
+    fastest, slowest = float(np.abs(at.seen.dq[at.number]).max()), LIBRARY.slow * max(at.width, at.sharp)
     widths = np.geomspace(slowest, max(fastest / 2, 2 * slowest), LIBRARY.stribeck_widths)
     for v in map(float, widths):
         more: dict[str, Any] = {"variant": f"{v:.3g}", "scanned": (("speed", f"{unit}/s", v),)}
@@ -231,7 +254,7 @@ def _is_a_link(inertias: Columns, j: int, k: int, sign: float) -> bool:
 
 def _coupled(seen: Seen, j: int, k: int, inertias: Columns) -> Iterator[PlacedCause]:
     """What turns with the sum or the difference of two neighbours' motions, and acts on both of them."""
-    width, place = sharp_width(seen.arm), f"joint {k + 1} from joint {j + 1}"
+    width, place = _sides(seen), f"joint {k + 1} from joint {j + 1}"
     if seen.arm.sliding[j] != seen.arm.sliding[k]:
         return
     torque, unit = seen.torque(k), seen.unit(k)

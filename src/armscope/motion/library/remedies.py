@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.motion.library.clauses import Numbers, amount
+from armscope.motion.library.clauses import ALL_JOINTS, Numbers, amount
 from armscope.robot.dynamics import MovingArm
 from armscope.robot.model import dh_halves
 from armscope.verdict.effects import Parameter
@@ -87,7 +87,8 @@ def off_the_recording(fitted: Fitted) -> str:
 def shifted(fitted: Fitted) -> str:
     """A delay of the recorded torque."""
     side = "earlier" if fitted.first.value > 0 else "later"
-    return f"Shift the recorded torque {amount(fitted.first)} {side}, or simulate that."
+    whose = f" of {fitted.place}" if fitted.place == ALL_JOINTS else ""
+    return f"Shift the recorded torque{whose} {amount(fitted.first)} {side}, or simulate that."
 
 
 def lagging(fitted: Fitted) -> str:

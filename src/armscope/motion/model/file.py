@@ -13,6 +13,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import MODEL_FILE
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import OWN_NAMES
+from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.file_check import CauseReader
 from armscope.motion.model.file_contents import (
     FORMAT,
@@ -29,7 +30,7 @@ from armscope.motion.model.file_contents import (
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Preparation
-from armscope.robot.dynamics import PARAMETERS, build_moving_arm
+from armscope.robot.dynamics import PARAMETERS, MovingArm, build_moving_arm
 
 
 def schema() -> dict[str, Any]:
@@ -56,8 +57,9 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
                 joint=f"joint {j + 1}",
                 **dict(zip(OWN_NAMES, map(float, own), strict=True)),
                 gain=float(gain),
+                width=width,
             )
-            for j, (own, gain) in enumerate(zip(model.joints, model.gains, strict=True))
+            for j, (own, gain, width) in enumerate(zip(model.joints, model.gains, _widths(model), strict=True))
         ),
         links=tuple(
             LinkFile(link=f"link {n + 1}", **dict(zip(PARAMETERS, map(float, values), strict=True)))
@@ -69,6 +71,11 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
     )
     robot = model.arm.description.model_dump(mode="json", exclude_none=True)
     write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
+
+
+def _widths(model: MotionModel) -> list[float] | list[None]:
+    """Speed within which each joint's friction changes sides; None where it does so as sharply as fits take it to."""
+    return [None] * len(model.joints) if model.width_of_sides is None else model.width_of_sides.tolist()
 
 
 def cause_out(cause: FittedCause) -> CauseFile:
@@ -141,4 +148,13 @@ def load_motion_model(path: Path | str) -> MotionModel:
         causes=CauseReader(arm, path).causes(file.causes),
         response=file.response_s2,
         links=CauseReader(arm, path).causes(file.twists, "twists"),
+        width_of_sides=_width_of_sides(file, arm),
     )
+
+
+def _width_of_sides(file: MotionModelFile, arm: MovingArm) -> Array | None:
+    """(m,) as the file has it; None where it has none of any joint."""
+    told = [joint.width for joint in file.joints]
+    if all(width is None for width in told):
+        return None
+    return np.array([own if width is None else width for width, own in zip(told, sharp_width(arm), strict=True)])

@@ -33,7 +33,7 @@ class JointFile(Strict):
     """Friction and rotor of one motor, SI: torque = offset + coulomb side(dq) + viscous dq + inertia ddq.
 
     ``blunter``, ``later``: how friction changes sides (N m), and when (N m s); ``gain``: share by which recorded
-    torque is too large.
+    torque is too large; ``width``: speed within which friction changes sides, rad/s (m/s), where the motion says so.
     """
 
     joint: Word
@@ -44,6 +44,7 @@ class JointFile(Strict):
     blunter: Number
     later: Number
     gain: Number
+    width: Positive | None = None
 
 
 class LinkFile(Strict):

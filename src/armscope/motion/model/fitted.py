@@ -17,6 +17,7 @@ from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.model.link_motion import beside_motor, following, moment_of_links
 from armscope.motion.samples.constants import FILTER
@@ -39,6 +40,7 @@ class MotionModel:
         gains: (m,) shares by which recorded torque exceeds the true one.
         causes: the named ones.
         response: by how much of its second derivative drives round a torque off, s^2.
+        width_of_sides: (m,) rad/s (m/s) within which friction changes sides; None: as sharply as fits take it to.
         links: why links lie beside their motors, rad (m): of joints where both were recorded.
     """
 
@@ -51,13 +53,14 @@ class MotionModel:
     causes: tuple[FittedCause, ...]
     response: float = 0.0
     links: tuple[FittedCause, ...] = ()
+    width_of_sides: Array | None = None
 
     def followed(self) -> Estimate:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
         delay = np.zeros(self.arm.n_motors)
         for cause in self.causes:
             if cause.placed.cause is catalogue.DELAY:
-                delay[cause.placed.joints[0]] = cause.values[0]
+                delay[list(cause.placed.joints)] = cause.values[0]
         runs = {run for cause in self.causes for run in cause.placed.runs}
         everywhere = self._added(None)
         of_runs = {run: self._added(run) - everywhere for run in runs}
@@ -93,11 +96,11 @@ class MotionModel:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
         joints, turning = self._turning()
-        own = own_columns(self.arm, signals, followed.delay, turning, FILTER.sharper_at_rest)
+        own = own_columns(self.arm, signals, followed.delay, turning, self._width())
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         rigid = regressor @ followed.inertial_in(signals.run) + carried + followed.carried(signals, bodies)
         friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
-        dry = DryFriction.of(self.arm, followed.background[:, 1], turning, FILTER.sharper_at_rest)
+        dry = DryFriction.of(self.arm, followed.background[:, 1], turning, self._width())
         gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
         moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
         moment = followed.smooth.with_laws(moment)
@@ -136,6 +139,12 @@ class MotionModel:
         turning = np.where(dry > 0, np.clip(later / np.where(dry > 0, dry, 1.0), -most, most), 0.0)
         joints[:, 5] = 0.0
         return joints, turning
+
+    def _width(self) -> Array:
+        """(m,) rad/s (m/s) within which friction changes sides: from rest on sharply, but where the motion says how."""
+        sharp = sharp_width(self.arm)
+        own = sharp if self.width_of_sides is None else self.width_of_sides
+        return np.where(own > sharp, own, sharp / FILTER.sharper_at_rest)
 
     def _gravity(self, q: Array, inertial: Array) -> Array | None:
         if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
@@ -188,6 +197,7 @@ def fitted_model(
         ),
         response=float(coefficients[layout.response][0]),
         links=links,
+        width_of_sides=layout.width_of_sides,
     )
 
 

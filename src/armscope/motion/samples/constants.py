@@ -105,6 +105,15 @@ class FilterRules(Constants):
     sharper: float = constant(
         5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
     )
+    wider: tuple[float, ...] = constant(
+        (2.0, 4.0, 8.0),
+        "within which a joint's friction may change sides instead, where its motion says so",
+        "judgement: grease and preloaded slides; wider is a curve of friction over speed",
+        unit="widths",
+    )
+    blunter: float = constant(
+        2.0, "that friction may change sides less sharply than within the chosen width", "derived: a step of `wider`"
+    )
     sharper_at_rest: float = constant(
         5.0,
         "more sharply still, where torque is predicted: fits leave joints out that stand, predictions begin with them",

@@ -52,11 +52,6 @@ class NamingRules(Constants):
         "judgement: a fifth of it is then as likely as nearly twice of it",
         unit="1",
     )
-    joints_of_a_clock: int = constant(
-        3,
-        "that must be late alike for a clock to be told in their place",
-        "judgement: two drives may be alike by chance",
-    )
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,6 @@ from armscope.motion.summary.doubts import doubt_of, not_told_apart
 from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
-from armscope.motion.summary.one_clock import clock_together, joints_in_motion
 from armscope.motion.summary.rivals import listed_rivals
 from armscope.motion.summary.words import clause, cure
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
@@ -31,7 +30,7 @@ from armscope.verdict.wording import capitalised, percent, spelled
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[float]) -> list[tuple[int, FoundCause]]:
-    """Every chosen cause with what is known about it, in the order of `clock_together`, beside its candidate's number.
+    """Every chosen cause with what is known about it, largest share first, beside its candidate's number.
 
     Args:
         selected: the selection.
@@ -47,9 +46,7 @@ def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[f
         placed = selected.rows.layout.placed[effect.candidate]
         agreed = agreement(selected, effect.candidate)
         found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (explained[number], agreed))))
-    numbers = {id(cause): number for number, cause in found}
-    in_order = clock_together([cause for _, cause in found], joints_in_motion(selected.rows.still))
-    return [(numbers[id(cause)], cause) for cause in in_order]
+    return sorted(found, key=lambda each: -each[1].share)
 
 
 def _found(
@@ -82,7 +79,7 @@ def _found(
         carries_over=agreed.words,
         consistent=agreed.consistent,
         physics=placed.cause.physics,
-        confirm=placed.cause.confirm,
+        confirm=(placed.common and placed.cause.confirm_common) or placed.cause.confirm,
         cure=cure(placed, parameters, layout.arm),
         doubt=f"{doubt_of(selected, number, agreed, parameters)} {not_told_apart(alternatives)}".strip(),
     )

@@ -53,10 +53,7 @@ def lasting_torques(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
     """Joints whose residual is foretold by other motion although no law of the library has it; largest share first."""
     rows, found = selected.rows, []
     residuals = selected.residuals
-    ordinary = Search.on(selected.problem).perfect()
-    before = rows.without_pauses(
-        rows.torque - rows.nominal - rows.modelled(coefficients_of(selected.problem, ordinary))
-    )
+    before = left_by_friction(selected)
     for j in range(residuals.shape[1]):
         which = np.flatnonzero(selected.weights.row[:, j] > 0)
         if len(which) < LASTING.least_rows:
@@ -72,6 +69,13 @@ def lasting_torques(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
             rms = float(np.sqrt(power))
             found.append(LastingTorque(j, driver, rms, rms / torque, share))
     return tuple(sorted(found, key=lambda each: -each.share))
+
+
+def left_by_friction(selected: SelectedCauses) -> Array:
+    """(K, m) torque that friction and rotors leave, N m or N."""
+    rows, ordinary = selected.rows, Search.on(selected.problem).perfect()
+    modelled = rows.modelled(coefficients_of(selected.problem, ordinary))
+    return rows.without_pauses(rows.torque - rows.nominal - modelled)
 
 
 def _foretold(selected: SelectedCauses, joint: int, which: Indices, left: Array, lasts: float) -> tuple[float, str]:

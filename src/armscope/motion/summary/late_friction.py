@@ -29,7 +29,8 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         A notice, or none. Of a joint that stands between its moves none that says "sooner".
     """
     layout, best = selected.rows.layout, selected.best
-    named = {layout.placed[n].joints[0] for n in best.candidates if layout.placed[n].cause is catalogue.DELAY}
+    delays = [layout.placed[n] for n in best.candidates if layout.placed[n].cause is catalogue.DELAY]
+    named = {joint for delay in delays for joint in delay.joints}
     told, level = [], level_of_gains(layout)
     for j, column in enumerate(layout.reversals[:, 1]):
         dry = selected.coefficients[OWN * j + 1] + np.nan_to_num(layout.arm.stated_background[j, 1])

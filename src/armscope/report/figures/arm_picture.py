@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from itertools import pairwise
 
 import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.report.colours import INK, OUTLINE, QUIET, UNTOUCHED, scale_end, share_colour
+from armscope.report.colours import INK, OUTLINE, PAPER, QUIET, UNTOUCHED, scale_end, share_colour
 from armscope.report.figures.arm_labels import Labels
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, shares_by_place, typical_pose
 from armscope.report.svg import Drawing
@@ -23,11 +23,13 @@ MARGIN = 0.19
 """Room for labels around the arm, in its sizes."""
 SHADOW = "rgba(0, 0, 0, 0.22)"
 """Over what faces away from the light."""
+HATCHED = 6.0
+"""From one line of a hatch to the next, px."""
 STEPS = np.array([0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0])
 """Lengths of the scale bar, m."""
 
 
-def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Drawing:
+def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float], nameless: Collection[str] = ()) -> Drawing:
     """The arm in a typical recorded pose, coloured by share.
 
     Args:
@@ -35,12 +37,13 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Draw
         motor_angles: (N, m) recorded poses to choose from, rad.
         shares: by location ("base", "joint 2", "link 3", "tool", "parallelogram", "payload", "instrument",
             "joint 6 from joint 5"), 0 to 1.
+        nameless: joints where some of that follows no known law: hatched.
 
     Returns:
         The figure.
     """
     row, view = typical_pose(arm, motor_angles)
-    picture = _Picture(arm_shape(arm, motor_angles[row]), view, shares_by_place(shares))
+    picture = _Picture(arm_shape(arm, motor_angles[row]), view, shares_by_place(shares), nameless)
     picture.whole_arm()
     return picture.drawing
 
@@ -48,8 +51,8 @@ def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float]) -> Draw
 class _Picture:
     """One arm on one drawing; `to` turns metres of the picture's plane into px."""
 
-    def __init__(self, shape: ArmShape, view: View, shares: Mapping[str, float]) -> None:
-        self.shape, self.view, self.shares = shape, view, shares
+    def __init__(self, shape: ArmShape, view: View, shares: Mapping[str, float], nameless: Collection[str]) -> None:
+        self.shape, self.view, self.shares, self.nameless = shape, view, shares, nameless
         flat = view.flat(shape.points)
         low, high = flat.min(axis=0), flat.max(axis=0)
         size = float(max(np.max(high - low), 1e-3))
@@ -148,8 +151,16 @@ class _Picture:
         self.drawing.polygon(side, self.colour(f"joint {joint}"), OUTLINE, 1.2, order)
         self.drawing.polygon(side, SHADOW, order=order + 0.02)
         self.drawing.polygon(front, self.colour(f"joint {joint}"), OUTLINE, 0.9, order + 0.05)
+        if f"joint {joint}" in self.nameless:
+            for ends in _hatches(side):
+                self.hatch(ends, order + 0.06)
         self.labels.avoid(self.to(centre)[None], 1.1 * radius * self.scale)
         self.labels.avoid(tip[None], 4)
+
+    def hatch(self, ends: Array, order: float) -> None:
+        """A line that is seen on the lightest colour as on the darkest."""
+        self.drawing.line(ends, PAPER, 2.6, order)
+        self.drawing.line(ends, INK, 1.1, order)
 
     def tool(self) -> None:
         at = self.to(self.shape.tool)
@@ -223,6 +234,15 @@ class _Picture:
         for part in (0, 0.5, 1):
             self.drawing.text((x + 15, top + high * (1 - part)), f"{100 * part * self.end:g} %", size=11, fill=QUIET)
 
+        if self.nameless:
+            y = top + high + 34
+            corners = np.array([x, y]) + 18.0 * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+            self.drawing.polygon(corners, UNTOUCHED, OUTLINE)
+            for ends in _hatches(corners):
+                self.hatch(ends, 1.0)
+            for line, words in enumerate(("no known", "law")):
+                self.drawing.text((x, y + 28 + 12 * line), words, size=11, fill=QUIET)
+
     def _order(self, point: Array) -> float:
         """0 to 8: nearer parts are drawn over farther ones."""
         depths = self.view.depth(self.shape.points)
@@ -251,6 +271,20 @@ def _hull(points: Array) -> Array:
         return kept[:-1]
 
     return np.array(half(ordered) + half(ordered[::-1]))
+
+
+def _hatches(corners: Array) -> list[Array]:
+    """(2, 2) the ends of each line of a hatch across a convex outline (K, 2)."""
+    found, level = [], corners.sum(axis=1)
+    for at in np.arange(level.min() + HATCHED / 2, level.max(), HATCHED * 2**0.5):
+        pairs = [(one, other) for one, other in zip(range(-1, len(corners) - 1), range(len(corners)), strict=True)
+                 if (level[one] < at) != (level[other] < at)]  # fmt: skip
+        parts = [(at - level[one]) / (level[other] - level[one]) for one, other in pairs]
+        crossings = zip(pairs, parts, strict=True)
+        found.append(
+            np.array([corners[one] + part * (corners[other] - corners[one]) for (one, other), part in crossings])
+        )
+    return found
 
 
 def _halfway(line: Array) -> Array:

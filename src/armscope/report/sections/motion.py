@@ -11,7 +11,8 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
-from armscope.motion.library.clauses import amount
+from armscope.motion.library.clauses import ALL_JOINTS, amount
+from armscope.motion.summary.left_over import left_over, shares_left_over
 from armscope.motion.verdict import JointBackground
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import atlas_map
@@ -49,12 +50,31 @@ def arm_of_motion(subject: MotionSubject) -> Iterator[Drawn]:
         arm = build_arm(subject.arm.description)
     except (InputError, ValueError):
         return
+    shares, nameless = places_of_motion(subject)
+    rows = subject.found.selected.rows
+    yield Drawn("arm", draw_arm(arm, rows.q, {place: min(share, 1.0) for place, share in shares.items()}, nameless))
+
+
+def places_of_motion(subject: MotionSubject) -> tuple[dict[str, float], set[str]]:
+    """Share of each place, torque that lasts without a law among it, and the joints where some has no known law.
+
+    What all joints have in common is spread evenly over those that move.
+    """
     shares: dict[str, float] = {}
+    nameless = {cause.location for cause in subject.verdict.effects if cause.nameless and not cause.minor}
+    every = [f"joint {joint + 1}" for joint in subject.moving]
     for cause in subject.verdict.effects:
         place = cause.location if _has_a_place(cause.location) else "payload"
-        shares[place] = shares.get(place, 0.0) + min(max(cause.share, 0.0), 1.0)
-    rows = subject.found.selected.rows
-    yield Drawn("arm", draw_arm(arm, rows.q, {place: min(share, 1.0) for place, share in shares.items()}))
+        places = every if cause.location == ALL_JOINTS else [place]
+        for each in places:
+            shares[each] = shares.get(each, 0.0) + min(max(cause.share, 0.0), 1.0) / len(places)
+    if subject.verdict.unexplained.present:
+        selected = subject.found.selected
+        for joint, share in shares_left_over(selected, left_over(selected)).items():
+            place = f"joint {joint + 1}"
+            shares[place] = shares.get(place, 0.0) + share
+            nameless.add(place)
+    return shares, nameless
 
 
 def _has_a_place(location: str) -> bool:

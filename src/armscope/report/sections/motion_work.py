@@ -15,7 +15,6 @@ from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
-from armscope.motion.summary.one_clock import ONE_CLOCK, as_one, of_one_clock
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
@@ -48,14 +47,10 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     verdict = subject.verdict
     background, with_masses, *after = subject.found.entered
     expected_after = {cause.title: error for cause, error in zip(verdict.effects, after, strict=True)}
-    moving = len(subject.moving)
-    for cause in of_one_clock(verdict.effects, moving):  # they stand together: one step, with the error after the last
-        expected_after[ONE_CLOCK] = expected_after[cause.title]
-    causes = as_one(verdict.effects, moving)
     along = fitted_along_matters(subject)
     masses = along and subject.masses_fitted
-    main = [each for each in causes if not each.minor]
-    minor = [each for each in causes if each.minor]
+    main = [each for each in verdict.effects if not each.minor]
+    minor = [each for each in verdict.effects if each.minor]
     told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses))
     apart = along and not any(_is_in_bodies(each) for each in told)
     tasks = []
