@@ -26,7 +26,7 @@ from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
-from armscope.diagnosis.summary.rows import told_of_rows
+from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
@@ -92,9 +92,10 @@ def judge(
     named = [as_far_as_it_carries(e, candidate(c), over.get(c)) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
     unexplained = _unexplained(state, basis.search, effects, background)
-    answer, mismatch = _answer(effects, background, unexplained)
+    left_over = basis.model_error.notices() if found else []
+    answer, mismatch = _answer(effects, background, unexplained, bool(left_over))
     tool_mm = rounding_mm(state)
-    carefully = [*weights_told, *told_of_rounding(state, tool_mm), *(basis.model_error.notices() if found else ())]
+    carefully = [*weights_told, *told_of_rounding(state, tool_mm), *left_over, *rows_left_out(state, held_out)]
     draft = Diagnosis(
         **told_of_rows(state),
         answer=answer,
@@ -209,10 +210,10 @@ def _shares(fit: Refit, equations: NormalEquations) -> tuple[list[float], list[f
 
 
 def _answer(
-    effects: Sequence[FoundEffect], background: Sequence[Background], unexplained: Unexplained
+    effects: Sequence[FoundEffect], background: Sequence[Background], unexplained: Unexplained, left_over: bool
 ) -> tuple[Answer, bool | None]:
     if effects or any(family.present for family in background):
-        return ("partly explained" if unexplained.present else "explained"), True
+        return ("partly explained" if unexplained.present or left_over else "explained"), True
     if unexplained.present:
         return "cannot tell", True
     return "nothing missing", False

@@ -17,11 +17,21 @@ from armscope.robot import Arm
 
 @dataclass(frozen=True)
 class Noise:
-    """What is known of the noise beforehand: mm per axis, 0 where nothing is, and where from."""
+    """What is known of the noise beforehand: mm per axis, 0 where nothing is, and where from.
+
+    Attributes:
+        least_mm: it is never taken to be below.
+        stated_mm: as somebody stated it.
+        source: where it is from, in words.
+        repeated_mm: how far repeats of a pose scatter.
+        repeats: rows beyond the first of their pose, by which this is known.
+    """
 
     least_mm: float
     stated_mm: float
     source: str
+    repeated_mm: float = 0.0
+    repeats: int = 0
 
 
 def known_noise(arm: Arm, recordings: Recordings) -> Noise:
@@ -31,23 +41,22 @@ def known_noise(arm: Arm, recordings: Recordings) -> Noise:
     if recordings.sigma is not None and np.isfinite(recordings.sigma).any():
         stated = float(np.sqrt(np.nanmedian(recordings.sigma**2))) * 1e3
         return Noise(stated, 0.0, "estimated; the instrument's stated uncertainty is its lower bound")
-    repeats = _from_repeats(recordings)
-    if repeats is not None:
-        return Noise(NOISE.repeats_trusted * repeats * 1e3, 0.0, "estimated; repeated poses are its lower bound")
+    scatter, repeats = _of_repeats(recordings)
+    if repeats >= NOISE.fewest_repeats:
+        source = "estimated; repeated poses are its lower bound"
+        return Noise(NOISE.repeats_trusted * scatter, 0.0, source, scatter, repeats)
     return Noise(0.0, 0.0, "estimated from the residuals")
 
 
-def _from_repeats(recordings: Recordings) -> float | None:
-    """Scatter, m per axis, of poses visited more than once in one run under the same load and approach."""
+def _of_repeats(recordings: Recordings) -> tuple[float, int]:
+    """Scatter, mm per axis, of poses visited more than once in one run under the same load and approach; how often."""
     context = [c for c in (recordings.payload, recordings.approach) if c is not None]
     which = same_configuration(recordings.motor_angles, recordings.run, recordings.target, *context)
     count = np.bincount(which)
-    freedom = int((count - 1).sum())
-    if freedom < NOISE.fewest_repeats:
-        return None
+    repeats = int((count - 1).sum())
     means = np.stack([np.bincount(which, p) / count for p in recordings.positions.T], axis=1)
     left = recordings.positions - means[which]
-    return float(np.sqrt(np.sum(left**2) / (3 * freedom)))
+    return 1e3 * float(np.sqrt(np.sum(left**2) / max(3 * repeats, 1))), repeats
 
 
 def poses(recordings: Recordings) -> Indices:

@@ -11,7 +11,7 @@ from armscope.verdict.constants import WORDS
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
-from armscope.verdict.schema import ANOTHER_MODEL, Background, Verdict
+from armscope.verdict.schema import ANOTHER_MODEL, ROWS_LEFT_OUT, Background, Verdict
 from armscope.verdict.wording import (
     BESIDE,
     GROWS,
@@ -198,7 +198,14 @@ def _unsure(verdict: Diagnosis) -> Iterator[str]:
 
 
 def _remainder(verdict: Diagnosis) -> str:
-    """What the model leaves."""
+    """What the model leaves, and whether many rows are not met at all."""
+    return _left(verdict) + ", and many rows fit none of it" * (
+        ROWS_LEFT_OUT in {each.kind for each in verdict.notices}
+    )
+
+
+def _left(verdict: Diagnosis) -> str:
+    """What the model leaves of the rows that it fits."""
     if makes_worse(verdict):
         before, after = millimetres(verdict.held_out.before), millimetres(verdict.held_out.after)
         return f"but rows that took no part in the fit get worse by it, from {before} to {after}: do not act on it yet"

@@ -41,6 +41,14 @@ class TellingRules(Constants):
         "cosine of the phase from which a wave works against what its drive gives like a balancing spring",
         "judgement: within 45 degrees of it; a spring's anchor need not stand upright",
     )
+    few_left_out: float = constant(
+        0.05,
+        "share of rows that look like bad shots up to which they are taken to be that without a word",
+        "judgement: one reading in twenty; an outsider's arms with play had 15 to 25 %",
+    )
+    left_out_matters: float = constant(
+        1.25, "times the held-out error that it is with such rows, from which that is told", "judgement: a quarter"
+    )
     masses_off: float = constant(
         0.3,
         "share of a drive's load by the stated masses up to which masses that are off take it away, and no spring",

@@ -21,7 +21,8 @@ from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Residuals
-from armscope.verdict.schema import Orientations, SuspectRow
+from armscope.verdict.schema import ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
+from armscope.verdict.wording import millimetres
 
 
 def told_of_rows(state: DiagnosisState) -> dict[str, Any]:
@@ -86,6 +87,31 @@ def _misread_rms(model: FittedModel, rows: Recordings) -> float:
     """By how much orientations were read wrongly with the tool's attitude, rad RMS per axis."""
     misread = model.scene(rows).misread(model.everything)
     return 0.0 if misread is None else float(np.sqrt(np.mean(misread**2)))
+
+
+def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
+    """That what is promised holds without rows that look like bad shots, where they are many and make a difference.
+
+    Args:
+        state: the finished selection.
+        held_out: its errors on rows that took no part.
+
+    Returns:
+        One notice, or none.
+    """
+    out = int(np.count_nonzero(state.fit.weights.robust_weight < WEIGHTS.inlier_weight))
+    rows, after, with_them = len(state.recordings), held_out.after, held_out.after_all_rows
+    if out <= TELLING.few_left_out * rows or not with_them > TELLING.left_out_matters * after:
+        return []
+    side = (
+        "" if state.recordings.approach is not None else ", and play whose side was not recorded looks so"
+    )
+    text = (
+        f"{out} of {rows} rows fit none of this and count little: with them the error on poses that took no part is "
+        f"{millimetres(with_them)}, not {millimetres(after)}. So many are seldom bad shots{side}. Measure some of them "
+        "again before anything is changed."
+    )
+    return [Notice(ROWS_LEFT_OUT, text)]
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:

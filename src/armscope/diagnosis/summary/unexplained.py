@@ -116,16 +116,19 @@ def together(families: Sequence[Background]) -> Background:
 
 
 def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> Unexplained:
-    """The largest free curve; or noise far above what was stated."""
+    """The largest free curve; or noise far above what was stated, or what repeats scatter by."""
     curves = [effect for effect in effects if effect.nameless]
     if curves:
         largest = curves[0]
         words = largest.curve.description if largest.curve else largest.title
         return Unexplained(True, largest.location, largest.driver, largest.rms_at_tool_mm, words)
-    stated = state.noise.stated_mm
-    if stated and state.fit.noise > TELLING.noise_excess * stated and _significant(state):
-        extra = float(np.sqrt(state.fit.noise**2 - stated**2))
-        return Unexplained(True, None, None, extra, "residual above the stated noise that follows nothing in the table")
+    for known, repeats, what in (
+        (state.noise.stated_mm, np.inf, "the stated noise"),
+        (state.noise.repeated_mm, state.noise.repeats, "what repeats of a pose scatter by"),
+    ):
+        if known and state.fit.noise > TELLING.noise_excess * known and _significant(state, known, 3 * repeats):
+            extra = float(np.sqrt(state.fit.noise**2 - known**2))
+            return Unexplained(True, None, None, extra, f"residual above {what}, that follows nothing in the table")
     return Unexplained(False)
 
 
@@ -151,7 +154,13 @@ def too_faint(found: Detection) -> Unexplained:
     return Unexplained(True, f"joint {found.region}" if joint else found.region, None, found.size_mm, words)
 
 
-def _significant(state: DiagnosisState) -> bool:
-    """Whether the residual's excess over the stated noise is beyond chance (five standard errors of an RMS)."""
+def _significant(state: DiagnosisState, known_mm: float, numbers: float) -> bool:
+    """Whether the residual's excess over a noise is beyond chance (five standard errors of a ratio of RMS).
+
+    Args:
+        state: the finished selection.
+        known_mm: the noise, per axis.
+        numbers: by which it is known; infinite where it was stated.
+    """
     freedom = max(state.fit.equations.n - state.fit.effective_dof, 1.0)
-    return bool(state.fit.noise > state.noise.stated_mm * (1 + 5 / np.sqrt(2 * freedom)))
+    return bool(state.fit.noise > known_mm * (1 + 5 * np.sqrt(1 / (2 * freedom) + 1 / (2 * numbers))))

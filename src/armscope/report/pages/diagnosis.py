@@ -35,7 +35,7 @@ from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.payload_place import of_payloads
-from armscope.verdict.schema import Notice
+from armscope.verdict.schema import ROWS_LEFT_OUT, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import capitalised, millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
@@ -46,7 +46,10 @@ ANSWERS = {
     "partly explained": ("depends", "partly explained"),
     "cannot tell": ("depends", "cannot tell"),
 }
-WARNINGS = ("check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible")
+WARNINGS = (
+    "check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible",
+    ROWS_LEFT_OUT,
+)  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (
     "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
