@@ -30,6 +30,7 @@ from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
+    load_in_question,
     masses_in_error,
     rows_apart,
     together,
@@ -231,6 +232,7 @@ def _carefully(state: DiagnosisState) -> list[Notice]:
             f"({state.growth.slope_mm_per_m:.2g} mm per metre): farther rows count less."
         )
         notices.append(Notice("noise by distance", text))
+    notices += load_in_question(state)
     stated, fitted = state.noise.stated_mm, state.fit.noise
     if stated and fitted < TELLING.noise_shortfall * stated:
         text = f"The residual ({fitted:.3g} mm) is well below the stated noise ({stated:.3g} mm): is that number right?"

@@ -233,7 +233,7 @@ UNKNOWN = Effect(
         "{location} scatters by {scatter}: play of {play}, if the rows stand in the order in which they were measured",
         "{location} scatters by {scatter}: after motion to one side and to the other it stands {overrun} apart, ahead "
         "of its readings, if rows were measured in this order",
-        "{location} scatters by {scatter} for a reason that the table does not record",
+        "{location} scatters by {scatter} for a reason that no single column of the table tells",
         "something unexplained at {location} follows the {driver}, by up to {reaches}",
         "something unexplained at {location} follows the {driver}",
     ),

@@ -37,6 +37,10 @@ NOT_ON_TOP = (
 )
 """The model file holds the arm as it was recorded: a zero set anew and commanded away is off by as much again."""
 NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
+SETTLE_SCATTER = (
+    "Settle first why {} scatters (below): play whose side was not recorded goes with the angle, too. Until then "
+    "change nothing here."
+)
 DOES_NOTHING = "by itself it changes nothing: payload data act only where what gives way is corrected, by {}"
 """In place of what a payload's correction alone would leave."""
 
@@ -130,7 +134,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
         for task, then_mm in (*first, *then, *last, *smaller)
     ]
-    done = [_after_what_it_needs(task, done[:n]) for n, task in enumerate(done)]
+    done = [_after_what_it_needs(_beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
         names = [what[:1].lower() + what[1:] for what in moving]
@@ -221,6 +225,17 @@ def _after_what_it_needs(task: Task, before: Sequence[Task]) -> Task:
     steps = [str(n) for n, each in enumerate(before, start=1) if each.family == task.requires and not each.requires]
     which = f"step{'s' * (len(steps) > 1)} {enumerated(steps)}" if steps else COMPENSATE
     return replace(task, needs=DOES_NOTHING.format(which), only_after=False)
+
+
+def _beside_scatter(task: Task, verdict: Diagnosis) -> Task:
+    """A drive's task where its joint scatters as play does: the side of approach goes with the angle at most poses.
+
+    What follows the angle there may be no more than that.
+    """
+    loose = {each.location for each in verdict.effects if any(p.name == "scatter" for p in each.parameters)}
+    if task.family != TRANSMISSION or task.place not in loose or task.unsettled:
+        return task
+    return replace(task, unless=f"{SETTLE_SCATTER.format(task.place)} {task.unless}".rstrip())
 
 
 def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:

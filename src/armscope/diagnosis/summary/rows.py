@@ -103,9 +103,7 @@ def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
     rows, after, with_them = len(state.recordings), held_out.after, held_out.after_all_rows
     if out <= TELLING.few_left_out * rows or not with_them > TELLING.left_out_matters * after:
         return []
-    side = (
-        "" if state.recordings.approach is not None else ", and play whose side was not recorded looks so"
-    )
+    side = "" if state.recordings.approach is not None else ", and play whose side was not recorded looks so"
     text = (
         f"{out} of {rows} rows fit none of this and count little: with them the error on poses that took no part is "
         f"{millimetres(with_them)}, not {millimetres(after)}. So many are seldom bad shots{side}. Measure some of them "

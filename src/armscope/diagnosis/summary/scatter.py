@@ -23,7 +23,7 @@ _CONFIRM = "Record the side of approach, speed, load and temperature, and repeat
 _CURE = "Find what the scatter follows (play, a loose coupling or encoder) before compensating anything."
 OVERRUN = "overrun"
 """Name of the size by which a joint stands ahead of what was read, apart after motion to either side."""
-REASONLESS = "The joint stands a little elsewhere each time, for a reason that the table does not record."
+REASONLESS = "The joint stands a little elsewhere each time, for a reason that no single column of the table tells."
 
 
 def scattered_effects(state: DiagnosisState, variance: float, left: float) -> Iterator[FoundEffect]:

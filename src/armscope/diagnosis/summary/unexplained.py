@@ -17,9 +17,11 @@ from armscope.inference.problem import background_sizes
 from armscope.inference.removals import savage_dickey
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import DRIFT, ELASTIC, FAMILIES, GEOMETRIC, MENDED, TRANSMISSION
+from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Background, Notice, Unexplained
+from armscope.verdict.wording import capitalised, places_in_words
 
 WITH_A_WORST_PLACE = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT)
 
@@ -106,6 +108,27 @@ def masses_in_error(
     ]
     text = "Stated masses are off, as all that gives way shows"
     return [found], [Notice("stated masses", f"{text}: {', '.join(known)}." if known else f"{text}; which, is open.")]
+
+
+def load_in_question(state: DiagnosisState) -> list[Notice]:
+    """That drives give way to another load than the stated masses make, and what else may be one.
+
+    Compliances told beside it were fitted to the stated masses: a gripper of 30 kg that nobody had stated made those of
+    a wrist come out fifteen times too soft.
+    """
+    arm, parts = state.fit.model.arm, state.fit.model.parts
+    if not arm.has_masses:
+        return []
+    by_others = [part.placed.location for part in parts if part.placed.variant == UNKNOWN_MASSES]
+    if not by_others:
+        return []
+    text = (
+        f"{capitalised(places_in_words(by_others))} give{'s' * (len(by_others) == 1)} way to another load than the "
+        "stated masses make: does something hang at the flange that nobody stated (`tool_load` in robot.yaml, "
+        "`payload_kg` in the recordings), or does a spring balance a joint? State it and diagnose again, before drives "
+        "are corrected one by one: what their stiffness is told to be beside a wrong load is wrong, too."
+    )
+    return [Notice("load in question", text)]
 
 
 def together(families: Sequence[Background]) -> Background:

@@ -48,7 +48,7 @@ ANSWERS = {
 }
 WARNINGS = (
     "check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible",
-    ROWS_LEFT_OUT,
+    "load in question", ROWS_LEFT_OUT,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (

@@ -193,6 +193,11 @@ def remark_on(effect: FoundEffect, shown: int, masses_stated: bool = False) -> s
             )
         if "compliance" in names:
             return "The links' masses are not known; the known payloads fix the scale of the compliance."
+        if masses_stated:
+            return (
+                "The stated masses do not fit what this joint does, or something hangs at the flange that nobody "
+                "stated: only products of the compliance with mass moments were fitted (model.yaml has them)."
+            )
         return (
             "The links' masses are not known, so only products of the compliance with mass moments are (model.yaml has "
             "them). Recordings with a known weight at the tool would give the compliance itself."
@@ -204,7 +209,7 @@ def remark_on(effect: FoundEffect, shown: int, masses_stated: bool = False) -> s
 def chosen_how_often(inclusion: float | None) -> str:
     """How stable the choice is when rows are drawn anew."""
     if inclusion is None:
-        return "not tested (resampling was switched off)"
+        return "not tested"
     often = f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
     if inclusion >= RELIABLE:
         return often
