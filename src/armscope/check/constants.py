@@ -69,6 +69,11 @@ class TrialRules(Constants):
         "times the usual misfit beyond which two rows may have exchanged their points",
         "judgement: far beyond what calibration errors do",
     )
+    fits_another: float = constant(
+        6,
+        "times the usual misfit within which a point is that of another row's angles",
+        "judgement: a row in a million is as far off by noise",
+    )
     alone: float = constant(
         30,
         "times the nominal arm's usual misfit beyond which a row fits nobody",

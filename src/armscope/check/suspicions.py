@@ -20,12 +20,11 @@ from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
 from armscope.check.payload import payload_at_the_flange
+from armscope.check.rows_far_off import rows_far_off
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
-from armscope.core.types import Indices
-from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.recordings.columns import counted_from_zero
 from armscope.recordings.motion import moving
@@ -75,7 +74,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         )
     else:
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
-        found += leading_joints(arm, some, state) + _rows_far_off(arm, recordings)
+        found += leading_joints(arm, some, state) + rows_far_off(arm, recordings, _placed_by_most)
         found += payload_at_the_flange(arm, recordings, state)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 
@@ -201,51 +200,6 @@ def _all_tried(arm: Arm, table: Recordings) -> list[tuple[float, Trial]]:
     nearest = sorted(left for left, _ in tried)[: TRIALS.refined]
     limit = max(nearest[-1], TRIALS.far)
     return [(_tried(trial.arm(arm), trial.undo(table))[0] if left <= limit else left, trial) for left, trial in tried]
-
-
-def _rows_far_off(arm: Arm, recordings: Recordings) -> list[Suspicion]:
-    """Rows whose points fit each other's angles, in pairs or rings, and rows whose points fit nobody's."""
-    some = recordings.rows(slice(0, TRIALS.rows_for_exchange))
-    rows = set_up(arm, some)
-    state = _placed_by_most(rows)
-    residuals = rows.residuals(state)
-    misfit = scale_of(residuals)
-    if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * misfit:
-        return []
-    residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
-    distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
-    far = np.flatnonzero(distance > TRIALS.exchanged * usual)
-    if not 1 <= len(far) <= 500:
-        return []
-    predicted = some.positions[far] - residuals[far]
-    between = np.linalg.norm(predicted[:, None] - some.positions[far][None], axis=2)
-    between[rows.base[far][:, None] != rows.base[far][None]] = 1e6
-    from scipy.optimize import linear_sum_assignment  # takes long to import, and is seldom needed
-
-    angles_of, points_of = linear_sum_assignment(between)
-    matched = (between[angles_of, points_of] < 6 * usual) & (angles_of != points_of)
-    exchanged, alone = far[angles_of[matched]], far[angles_of[~matched]]
-    found = []
-    if len(exchanged):
-        statement = f"{len(exchanged)} rows seem to have exchanged their points: {_ids(some, exchanged)}"
-        found.append(Suspicion("problem", statement, "Their points fit each other's joint angles."))
-    alone = alone[distance[alone] > TRIALS.alone * misfit]
-    if 0 < len(alone) <= TRIALS.most_alone * len(some):
-        alone = alone[np.argsort(-distance[alone])]
-        number = "1 row lies" if len(alone) == 1 else f"{len(alone)} rows lie, the furthest first,"
-        off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
-        statement = f"{number} {off} from where all others put the tool: {_ids(some, alone)}"
-        cure = "Mistyped, or measured while the arm moved? Mend it, or leave out what can't be measured again."
-        if not some.positions[alone].any():
-            cure = "Their points are exactly 0, 0, 0: readings that were lost. Leave them out."
-        found.append(Suspicion("hint", statement, cure))
-    return found
-
-
-def _ids(table: Recordings, rows: Indices) -> str:
-    """Rows by run and id, ten at most."""
-    names = [f"{table.run[row]}: {table.id[row]}".removeprefix(": ") for row in rows[:10]]
-    return ", ".join(names) + (", ..." if len(rows) > 10 else "")
 
 
 def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:

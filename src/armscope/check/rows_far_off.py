@@ -1,0 +1,96 @@
+"""Rows whose points are not those of their angles: exchanged with another's, the row before's, or nobody's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from armscope.calibration.fit import robust_least_squares
+from armscope.calibration.model import SetUp, set_up
+from armscope.calibration.state import State
+from armscope.check.constants import TRIALS
+from armscope.check.suspicion import Suspicion
+from armscope.core.types import Array, Indices
+from armscope.measurement.robust import scale_of
+from armscope.recordings import Recordings
+from armscope.robot import Arm
+
+
+def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], State]) -> list[Suspicion]:
+    """Rows whose points fit the row before, each other's angles, in pairs or rings, or nobody's.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the rows.
+        place: base and tool as most rows have them.
+
+    Returns:
+        What each seems to be, with the rows by name.
+    """
+    some = recordings.rows(slice(0, TRIALS.rows_for_exchange))
+    rows = set_up(arm, some)
+    state = place(rows)
+    residuals = rows.residuals(state)
+    misfit = scale_of(residuals)
+    if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * misfit:
+        return []
+    residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
+    distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
+    far = np.flatnonzero(distance > TRIALS.exchanged * usual)
+    if not 1 <= len(far) <= 500:
+        return []
+    predicted, near = some.positions - residuals, TRIALS.fits_another * usual
+    stale = far[_of_the_row_before(some, predicted, far, near)]
+    far = np.setdiff1d(far, stale)
+    angles_of, points_of = _assigned(predicted[far], some.positions[far], rows.base[far])
+    matched = np.linalg.norm(predicted[far[angles_of]] - some.positions[far[points_of]], axis=1) < near
+    matched &= (angles_of != points_of) & (rows.base[far[angles_of]] == rows.base[far[points_of]])
+    found = []
+    if len(stale):
+        few = len(stale) <= TRIALS.most_alone * len(some)
+        many = f"{len(stale)} rows hold the points" if len(stale) > 1 else "1 row holds the point"
+        cure = "Had the arm not moved yet, or was a reading written twice? Leave them out, or measure them again."
+        found.append(Suspicion("hint" if few else "problem", f"{many} of the row before: {_ids(some, stale)}", cure))
+    if matched.any():
+        exchanged = far[angles_of[matched]]
+        statement = f"{len(exchanged)} rows seem to have exchanged their points: {_ids(some, exchanged)}"
+        found.append(Suspicion("problem", statement, "Their points fit each other's joint angles."))
+    alone = far[angles_of[~matched]]
+    alone = alone[distance[alone] > TRIALS.alone * misfit]
+    if 0 < len(alone) <= TRIALS.most_alone * len(some):
+        found.append(_told_alone(some, alone[np.argsort(-distance[alone])], distance))
+    return found
+
+
+def _of_the_row_before(table: Recordings, predicted: Array, far: Indices, near: float) -> Array:
+    """(n,) bool: which of rows far off hold the point of the row before in their run, to within ``near`` m."""
+    off = np.linalg.norm(table.positions[far] - predicted[far - 1], axis=1)
+    return np.asarray((far > 0) & (table.run[far] == table.run[far - 1]) & (off < near))
+
+
+def _assigned(predicted: Array, measured: Array, base: Indices) -> tuple[Indices, Indices]:
+    """Which point (n, 3) belongs to which angles: the least sum of distances within what one base saw."""
+    from scipy.optimize import linear_sum_assignment  # takes long to import, and is seldom needed
+
+    between = np.linalg.norm(predicted[:, None] - measured[None], axis=2)
+    between[base[:, None] != base[None]] = 1e6
+    angles_of, points_of = linear_sum_assignment(between)
+    return angles_of, points_of
+
+
+def _told_alone(table: Recordings, alone: Indices, distance: Array) -> Suspicion:
+    """Rows that fit nobody's angles, the furthest first."""
+    number = "1 row lies" if len(alone) == 1 else f"{len(alone)} rows lie, the furthest first,"
+    off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
+    statement = f"{number} {off} from where all others put the tool: {_ids(table, alone)}"
+    cure = "Mistyped, or measured while the arm moved? Mend it, or leave out what can't be measured again."
+    if not table.positions[alone].any():
+        cure = "Their points are exactly 0, 0, 0: readings that were lost. Leave them out."
+    return Suspicion("hint", statement, cure)
+
+
+def _ids(table: Recordings, rows: Indices) -> str:
+    """Rows by run and id, ten at most."""
+    names = [f"{table.run[row]}: {table.id[row]}".removeprefix(": ") for row in rows[:10]]
+    return ", ".join(names) + (", ..." if len(rows) > 10 else "")
