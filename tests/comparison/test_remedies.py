@@ -53,7 +53,7 @@ def test_every_instruction_of_the_library_can_be_told_of_a_change(effect):
 def test_what_turns_is_taken_back_by_what_it_gained():
     coupling = replace(NUMBER, name="coupling", unit="rad/rad")
     told = remedy_of(FOUND, replace(CHANGE, effect="joint_coupling", parameters=(coupling,)))
-    assert "what stood there and −870 µrad per rad together" in told.instruction
+    assert "Add −870 µrad per rad to what the controller" in told.instruction
 
 
 def test_the_interval_is_kept():

@@ -35,7 +35,7 @@ def test_a_gear_that_turns_too_far_has_fewer_motor_turns_per_joint_turn() -> Non
     assert "0.998004" in task_of(model.scene(case.recordings), cause, ratio).instruction
 
 
-@pytest.mark.parametrize(("size", "put"), [(4.07e-3, "Put −4.070 mrad per rad"), (-4.07e-3, "Put 4.070 mrad per rad")])
+@pytest.mark.parametrize(("size", "put"), [(4.07e-3, "Add −4.070 mrad per rad"), (-4.07e-3, "Add 4.070 mrad per rad")])
 def test_a_coupling_says_what_is_put_into_the_table_with_its_sign_and_once(size: float, put: str) -> None:
     coupled = verdicts.found("joint_coupling", "joint 6 from joint 5", Parameter("coupling", "rad/rad", size, 1e-5))
     case = verdicts.case(effects=(coupled,))

@@ -98,7 +98,7 @@ def _words(known: Effect, location: str, differences: list[Parameter], verb: str
         words["size"] = f" (minus {read_parameter(by_name['compliance'], known.name).value} × load)"
     if "coupling" in by_name:
         back = replace(by_name["coupling"], value=-by_name["coupling"].value)
-        words["coefficient"] = f"what stood there and {read_parameter(back, known.name).value} together"
+        words["coefficient"] = read_parameter(back, known.name).value
     if "ratio" in by_name:
         words["ratio"] = f"{1 / (1 + by_name['ratio'].value):.6f}"
     return words

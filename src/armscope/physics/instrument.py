@@ -26,12 +26,14 @@ INSTRUMENT_SCALE = Effect(
     "instrument",
     _place_scale,
     "The instrument measures all lengths too long or too short by the same share.",
-    "Measure a calibrated scale bar, or correct the air's refractive index by temperature and pressure.",
+    "Measure a calibrated scale bar, or correct the air's refractive index by temperature and pressure. If the "
+    "instrument is right, all links are longer by that: an arm 10 K warmer is, by 0.12 (steel) to 0.23 mm per metre.",
     Cure(
-        "Correct the instrument's scale, not the arm: reading = measured / (1 + scale).",
+        "Correct the instrument's scale, unless the scale bar shows it right: reading = measured / (1 + scale).",
         readings=lambda measured, part: measured / (1 + float(part.values[0])),
         change="instrument",
-        instruction="Have the instrument's scale calibrated, and measure again.",
+        instruction="Measure a scale bar at the arm's temperature: if it is off, have the instrument's scale calibrated; "
+        "else it is the arm that grew.",
     ),
     clauses=(_measures,),
     labels={"scale": "lengths too long by"},

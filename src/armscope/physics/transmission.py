@@ -275,7 +275,7 @@ JOINT_COUPLING = Effect(
         otherwise="or compensate for it in the command: commanded = wanted - coupling x other (other: the angle of the "
         "motor it follows).",
         change="coupling table",
-        instruction="Put {coefficient}, minus the coefficient, into the controller's coupling table for {location}.",
+        instruction="Add {coefficient} to what the controller's coupling table holds for {location}.",
     ),
     clauses=("{joint} turns by {coupling:+} of {source}",),
     departs=True,

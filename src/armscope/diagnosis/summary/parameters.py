@@ -44,7 +44,7 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
 def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
     """What to say where a value is larger than real arms show; None where none is."""
     beyond = [
-        plain(f"{term.name} of {part.placed} by {value / term.si:+.3g} {term.unit}")
+        plain(f"{term.name} of {part.placed.location} by {value / term.si:+.3g} {term.unit}")
         for part in parts
         for term, value in part.implausible
     ]
