@@ -32,8 +32,8 @@ INSTRUMENT_SCALE = Effect(
         "Correct the instrument's scale, unless the scale bar shows it right: reading = measured / (1 + scale).",
         readings=lambda measured, part: measured / (1 + float(part.values[0])),
         change="instrument",
-        instruction="Measure a scale bar at the arm's temperature: if it is off, have the instrument's scale calibrated; "
-        "else it is the arm that grew.",
+        instruction="Measure a scale bar at the arm's temperature: if it is off, have the instrument's scale "
+        "calibrated; else it is the arm that grew.",
     ),
     clauses=(_measures,),
     labels={"scale": "lengths too long by"},
