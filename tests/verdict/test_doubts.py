@@ -42,3 +42,7 @@ def test_a_sure_name_has_no_doubt_but_says_what_held_out_rows_do_not_exclude() -
     assert unless_confirmed(sure).endswith("it could also be link geometry at link 6.")
     assert unless_confirmed(replace(sure, alternatives=(ZERO,))) == ""
     assert unless_confirmed(VAGUE) == "", "all its readings are told"
+    seldom = replace(sure, alternatives=(), inclusion=0.2)
+    assert unless_confirmed(seldom).startswith("Change nothing here before that shows it: ")
+    assert "only 20 % of the tables" in unless_confirmed(seldom)
+    assert unless_confirmed(replace(seldom, inclusion=0.6)) == unless_confirmed(replace(seldom, inclusion=None)) == ""

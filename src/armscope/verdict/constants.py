@@ -109,6 +109,9 @@ class WordingRules(Constants):
     sure: float = constant(
         5.0, "standard errors from zero at which a value is no open one", "judgement: one chance in two million"
     )
+    reliable: float = constant(
+        0.5, "share of resampled tables below which an effect that is chosen is not to be relied on", "convention: most"
+    )
     steady: float = constant(
         0.02, "share of its size below which a motion's range is told as one number", "judgement: two digits"
     )

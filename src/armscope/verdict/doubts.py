@@ -61,9 +61,14 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
 def unless_confirmed(effect: FoundEffect) -> str:
     """What a named cause could be, too, if the test at the arm does not show it; "" where all else is excluded."""
     near = [_words(each) for each in effect.alternatives if each.excluded is False][: WORDS.rivals]
-    if effect.named_as != "effect" or not near:
+    if effect.named_as != "effect":
         return ""
-    return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
+    if near:
+        return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
+    if effect.inclusion is not None and effect.inclusion < WORDS.reliable:
+        often = f"{100 * effect.inclusion:.0f} % of the tables"
+        return f"Change nothing here before that shows it: of the same rows drawn anew, only {often} have this name."
+    return ""
 
 
 def _rivals(effect: FoundEffect) -> list[Alternative]:

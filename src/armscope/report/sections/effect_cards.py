@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from armscope.physics.registry import effect_named
+from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, FoundEffect, Parameter
 from armscope.verdict.wording import (
     Reading,
@@ -28,8 +29,6 @@ LEFT_OPEN = 10.0
 """A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
 HALF_A_PERIOD = {"phase": math.pi, "direction": math.pi / 2}
 """Where a wave is largest, and about which line an axis tilts, are open when their intervals hold every angle."""
-RELIABLE = 0.5
-"""An effect chosen in fewer of the resampled data sets than this is not to be relied on."""
 
 
 @dataclass(frozen=True)
@@ -211,7 +210,7 @@ def chosen_how_often(inclusion: float | None) -> str:
     if inclusion is None:
         return "not tested"
     often = f"chosen in {100 * inclusion:.0f} % of the resampled data sets"
-    if inclusion >= RELIABLE:
+    if inclusion >= WORDS.reliable:
         return often
     return (
         f"{often}: in the others, other effects or small errors of the whole arm took its place. Take it as one "
