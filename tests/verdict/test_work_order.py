@@ -21,7 +21,8 @@ from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import ANOTHER_MODEL, HeldOut, Notice
-from armscope.verdict.work_order import work_order
+from armscope.verdict.tasks import task_of
+from armscope.verdict.work_order import beside_scatter, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
@@ -220,3 +221,15 @@ def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
     assert not [place for place in ranking if "minor effect" in place.name], "nothing stands twice"
     untold = work_order(replace(case.verdict, causes=(replace(told, share=0.01),)), worth).tasks
     assert "joints 3 and 5" not in [task.place for task in untold]
+
+
+def test_a_drive_whose_joint_scatters_is_left_alone_until_that_is_settled() -> None:
+    """Play whose side was not recorded goes with the angle at most poses: a gear's ratio was ordered for it."""
+    ratio = verdicts.found("gear_ratio", "joint 2", Parameter("ratio", "rad/rad", 4e-4, 4e-5))
+    for place, said in (("joint 2", True), ("joint 5", False)):
+        scatter = verdicts.found("unknown", place, Parameter("scatter", "rad", 4e-4, 1e-5), family="unknown")
+        case = verdicts.case(effects=(ratio, scatter))
+        repair = contributions(case.verdict).causes[0]
+        task = task_of(case.verdict.model.scene(case.recordings), repair, ratio)
+        told = beside_scatter(task, case.verdict)
+        assert told.unless.startswith("Settle first why joint 2 scatters") == said

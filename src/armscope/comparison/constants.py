@@ -15,6 +15,9 @@ class ComparingRules(Constants):
     power: float = constant(0.9, "share of cases in which a change is named that would be seen", "convention")
     changes: int = constant(8, "changes of one comparison, at most", "judgement: with more, it is another arm")
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
+    many_alike: int = constant(
+        8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"
+    )
     same_poses: float = constant(
         0.5,
         "share of each joint's range (5 to 95 % of its angles) that recordings of the same poses have in common",

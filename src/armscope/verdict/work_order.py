@@ -134,7 +134,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
         for task, then_mm in (*first, *then, *last, *smaller)
     ]
-    done = [_after_what_it_needs(_beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
+    done = [_after_what_it_needs(beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
         names = [what[:1].lower() + what[1:] for what in moving]
@@ -227,7 +227,7 @@ def _after_what_it_needs(task: Task, before: Sequence[Task]) -> Task:
     return replace(task, needs=DOES_NOTHING.format(which), only_after=False)
 
 
-def _beside_scatter(task: Task, verdict: Diagnosis) -> Task:
+def beside_scatter(task: Task, verdict: Diagnosis) -> Task:
     """A drive's task where its joint scatters as play does: the side of approach goes with the angle at most poses.
 
     What follows the angle there may be no more than that.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.schema import HeldOut
 from tests.diagnosis.planted import one_run, recorded
 from tests.physics.scenes import arm_named
 
@@ -90,3 +92,18 @@ def test_without_small_errors_of_geometry_a_curve_keeps_its_mean() -> None:
     told = rows._to_predict(model, table)
     assert not told.background
     np.testing.assert_array_equal(told.parts[0].values, model.parts[0].values)
+
+
+@pytest.mark.parametrize(("out", "with_them", "told"), [(12, 0.3, True), (12, 0.06, False), (3, 0.3, False)])
+def test_what_many_rows_that_fit_nothing_make_of_the_promise_is_told(out: int, with_them: float, told: bool) -> None:
+    """0.05 mm were promised and 0.30 mm reached where 30 of 121 good rows had been taken for bad shots."""
+    weight = np.r_[np.zeros(out), np.ones(100 - out)]
+    fit = SimpleNamespace(weights=SimpleNamespace(robust_weight=weight))
+    table = replace(one_run(arm_named("six-axis"), 100, 1), approach=None)
+    held_out = HeldOut(before=0.4, after=0.05, before_all_rows=0.45, after_all_rows=with_them)
+    found = rows.rows_left_out(SimpleNamespace(fit=fit, recordings=table), held_out)
+    assert bool(found) == told
+    if told:
+        assert "12 of 100 rows fit none of this" in found[0].text
+        assert "0.3 mm, not 0.05 mm" in found[0].text
+        assert "play whose side was not recorded" in found[0].text
