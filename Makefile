@@ -41,7 +41,7 @@ checked:
 small-run:
 	$(BIN)/snakemake -j2 all poses --configfile config/small.yaml --forceall
 
-# more than one and a half seconds each, or a quick claim again on more seeds; those of real arms need their recordings beside the project
+# about a second or more each, or a quick claim again on more seeds; those of real arms need their recordings beside the project
 test-long: .venv/installed-test
 	$(BIN)/pytest -n 2 --dist loadscope -m long
 

@@ -151,6 +151,7 @@ def test_commands_of_a_diagnosed_urdf_bring_the_real_arm_to_its_points(robot, mo
     assert missed["after"] < NOISE_MM < 0.1 * missed["before"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "stated",
     # gravity that is asked for: in the quick run of arms of tables (tests/diagnosis/test_gravity_direction.py)

@@ -52,6 +52,7 @@ def _runs(*tables):
     return replace(tables[0], run=np.array(names), **stacked)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("share", [pytest.param(80, marks=pytest.mark.long), 20])
 def test_a_mistake_of_one_run_is_named_with_its_run_however_few_rows_it_has(arm, sound, share):
     other = sound.rows(slice(share))
@@ -85,6 +86,7 @@ def test_a_tool_that_sits_quite_elsewhere_in_a_run_is_a_moved_tool_and_no_other_
     assert "tool seems to have moved between runs" in report.text()
 
 
+@pytest.mark.long
 def test_a_tool_longer_than_the_arm_explains_nothing(arm):
     # where only two joints move, a tool of a kilometre puts the points upon their sphere
     rng = np.random.default_rng(4)

@@ -83,6 +83,7 @@ def test_a_tip_that_was_guessed_too_near_is_named_with_how_to_name_it(command, s
         assert told in str(error)
 
 
+@pytest.mark.long
 def test_of_an_arm_that_slides_excite_says_what_it_leaves_out(scara):
     out = str(scara / "out.csv")
     told = CliRunner().invoke(app, ["excite", str(scara / "scara.urdf"), "-o", out, "--rounds", "0"])

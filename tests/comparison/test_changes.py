@@ -136,6 +136,7 @@ def test_of_several_arms_the_one_that_is_unlike_the_others():
     assert "that all are alike" in found.headline
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(300, 400))
 @pytest.mark.parametrize(
     ("zeros", "changes"),
@@ -155,6 +156,7 @@ def test_of_a_series_a_zero_that_changed_twice_did_so_by_what_was_planted(zeros,
         assert high - low < 2e-4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "zeros",
     [
@@ -170,6 +172,7 @@ def test_what_is_to_be_mended_adds_up_to_what_is_off_in_the_last_recording(zeros
     assert total == pytest.approx(zeros[-1] - zeros[0], abs=1e-4)
 
 
+@pytest.mark.long
 def test_two_arms_that_are_unlike_the_others_are_held_against_the_rest():
     planted = {"B": 5e-4, "D": -4e-4}
     arms = {name: session(600 + n, offsets={2: planted.get(name, 0.0)}) for n, name in enumerate("ABCDE")}

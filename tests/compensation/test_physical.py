@@ -66,6 +66,7 @@ def test_every_kind_of_context_is_asked_for_by_the_effects_that_follow_it(kind, 
     assert list(missing_context(only, identified, bare)) == [column]
 
 
+@pytest.mark.long
 def test_ten_thousand_points_are_reached_every_one():
     model, identified = physical()
     points, middle = physical_path(10_000)

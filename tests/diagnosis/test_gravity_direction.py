@@ -23,6 +23,7 @@ FREE = Settings(resamples=0, cross_validation=False, estimate_gravity=True)
 DRIVES = {("joint_compliance", "joint 2"): [4e-7], ("joint_compliance", "joint 3"): [8e-7]}
 
 
+@pytest.mark.long
 def test_an_arm_on_a_wedge_tells_where_down_is() -> None:
     """An arm that gives way on a wedge, diagnosed as if it stood upright."""
     upright = arm_named("four-axis")

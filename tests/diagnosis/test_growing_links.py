@@ -97,6 +97,7 @@ def test_one_link_that_grows_by_itself_has_its_name() -> None:
     assert coefficient.value == pytest.approx(40e-6, abs=2.5 * coefficient.stderr)
 
 
+@pytest.mark.long
 def test_a_hall_that_stays_as_it_is_makes_nothing_grow() -> None:
     arm, table = session(np.zeros(4))
     verdict = diagnose(arm, table, QUICK)

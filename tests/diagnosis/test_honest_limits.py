@@ -148,6 +148,7 @@ def test_a_few_bad_shots_change_no_answer() -> None:
     assert len(verdict.suspects) == 4
 
 
+@pytest.mark.long
 def test_what_looks_wrong_with_the_table_stands_in_every_verdict_not_only_the_command_lines() -> None:
     """The check is part of a diagnosis, whoever asks for it; rows that are left out are not asked about."""
     arm, table = planted("four-axis", {}, 80, 0.03, seed=60)
@@ -156,6 +157,7 @@ def test_what_looks_wrong_with_the_table_stands_in_every_verdict_not_only_the_co
     assert "temperature" in found.notices[0].text
 
 
+@pytest.mark.long
 def test_a_diagnosis_keeps_the_table_as_it_was_used(clean: tuple[Arm, Recordings]) -> None:
     """Rows that were left out are in no figure and widen no range of the compensation."""
     arm, table = clean

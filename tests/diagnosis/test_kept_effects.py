@@ -39,6 +39,7 @@ def worst_later_mm(model: FittedModel, table: Recordings) -> float:
     return 1e3 * float(np.abs(predict(model, later) - predict(nominal, later)).max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("phase", [pytest.param(0.0, marks=pytest.mark.long), 0.7])
 def test_a_base_that_goes_to_and_fro_is_no_drift_of_centimetres(arm: Arm, phase: float) -> None:
     table = moving_base(arm, 1.8e-4 * np.sin(6 * np.pi * ALONG + phase))
@@ -48,6 +49,7 @@ def test_a_base_that_goes_to_and_fro_is_no_drift_of_centimetres(arm: Arm, phase:
     assert worst_later_mm(verdict.model, table) < 0.2
 
 
+@pytest.mark.long
 def test_a_base_that_drifts_is_told_beside_its_wander(arm: Arm) -> None:
     table = moving_base(arm, 1.5e-3 * ALONG + 5e-5 * np.sin(6 * np.pi * ALONG))
     verdict = diagnose(arm, table, QUICK)

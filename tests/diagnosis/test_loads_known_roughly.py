@@ -118,6 +118,7 @@ def test_a_payload_wrong_by_a_factor_has_one_value_beside_the_drives(tmp_path: P
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("about_x", "about_y"), [(6e-8, 1e-8), (3e-8, 3e-8)], ids=["two axes", "one value"])
 def test_a_base_softer_about_one_axis_is_told_about_both(about_x: float, about_y: float) -> None:
     arm = arm_named("six-axis")

@@ -74,6 +74,7 @@ def test_a_true_arm_with_noisy_orientations_misses_nothing(seed: int) -> None:
     assert names(verdict) == set()
 
 
+@pytest.mark.long
 def test_a_turn_counts_beside_a_shift_by_the_ratio_of_their_noises(with_turns: Diagnosis) -> None:
     seen = with_turns.orientations
     assert seen is not None
@@ -130,6 +131,7 @@ def test_what_hardly_moves_the_point_shows_in_the_turn() -> None:
     assert abs(amplitude.value - 1.2e-3) < 3 * amplitude.stderr
 
 
+@pytest.mark.long
 def test_two_springs_about_parallel_axes_are_told_more_sharply_with_turns() -> None:
     """Only two joints move: joints 2 and 4 bend the arm under nearly one load, about parallel axes."""
     springs: Wanted = {("joint_compliance", "joint 2"): [6e-5], ("joint_compliance", "joint 4"): [6e-5]}

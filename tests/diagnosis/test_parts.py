@@ -174,6 +174,7 @@ def test_the_atlas_shows_where_and_by_what() -> None:
     assert np.nanmax(atlas.share[atlas.locations.index("joint 4")]) < 0.9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("robot", "effect", "place", "driver", "values"),
     [

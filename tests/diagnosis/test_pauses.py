@@ -34,6 +34,7 @@ def drift_in(verdict):
     return next(p for p in (part.placed for part in verdict.model.parts) if p.name == "base_drift")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("pauses", "seed"), [pytest.param({61: 2400.0}, 3, marks=pytest.mark.long), ({41: 1800.0, 90: 1500.0}, 4)]
 )
@@ -49,6 +50,7 @@ def test_a_drift_with_pauses_is_one_drift_where_the_time_is_not_told(pauses, see
     assert str(next(iter(pauses))) in verdict.effects[0].driver
 
 
+@pytest.mark.long
 def test_a_drift_without_pauses_has_none():
     arm = arm_named("four-axis")
     told = recorded(arm, timed(arm, {}, 5), {("base_drift", "base"): DRIFT}, 0.02, 5)
@@ -57,6 +59,7 @@ def test_a_drift_without_pauses_has_none():
     assert pauses_of(drift_in(verdict)) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("way", [pytest.param([-1] * 6, marks=pytest.mark.long), [1, 2, -2, 1, 1, -1]])
 def test_a_jump_that_goes_another_way_than_the_drift_stays_a_jump(way):
     """Back where the drift came from, or aside: no pause does that."""

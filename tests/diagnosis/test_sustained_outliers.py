@@ -30,6 +30,7 @@ def test_a_base_that_jumped_far_and_early_is_named_not_listed_as_bad_shots(seed:
     assert not verdict.suspects
 
 
+@pytest.mark.long
 def test_a_dozen_bad_shots_in_a_row_stay_bad_shots_and_get_no_name() -> None:
     rng = np.random.default_rng(3)
 

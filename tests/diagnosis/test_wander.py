@@ -87,6 +87,7 @@ def test_a_link_that_warms_up_by_itself_is_told_as_that_and_no_loose_base(link: 
     assert "base" not in drift.text
 
 
+@pytest.mark.long
 def test_a_link_that_warms_up_is_background_and_no_jump_of_the_tool() -> None:
     arm, table = session()
     verdict = diagnose(arm, warming(arm, table, 8.0), QUICK)

@@ -65,6 +65,7 @@ def turning(arm: Arm, table: Recordings, size: float, rng: np.random.Generator) 
     return replace(table, positions=table.positions + moved)
 
 
+@pytest.mark.long
 def test_where_there_is_only_noise_the_covariance_is_the_fits_own() -> None:
     wider = []
     for seed in range(6):

@@ -78,6 +78,7 @@ def test_a_tool_point_that_moved_a_little_between_runs_is_found_at_the_run() -> 
         assert abs(parameter.value - true) < 3 * parameter.stderr < 0.1
 
 
+@pytest.mark.long
 def test_points_with_names_of_their_own_are_no_shift() -> None:
     arm, table = two_runs([0.0, 0.3, -0.2])
     table = replace(table, target=np.where(table.run == "2", "p2", "p1"))

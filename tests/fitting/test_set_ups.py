@@ -108,6 +108,7 @@ def test_a_base_that_moved_a_little_between_runs_is_named_with_the_runs_and_its_
     assert all(p.stderr < 0.03 for p in moved)
 
 
+@pytest.mark.long
 def test_a_single_run_that_stands_elsewhere_is_named_alone() -> None:
     (found,) = diagnose(*three_runs({"a": ([0.2, -0.1, 0.1], [0.0, 0.0, 0.0])}), QUICK).effects
     assert (found.effect, found.driver) == ("base_shift", "in run a alone")

@@ -91,6 +91,7 @@ def both() -> tuple[Refit, Refit, Refit]:
         return few, again, fitted(near, summed(near, table, effects), effects, ROWS)
 
 
+@pytest.mark.long
 def test_it_ends_where_passes_over_all_rows_end(both: tuple[Refit, Refit, Refit]) -> None:
     few, exact, of_sums = both
     stderr = stderrs(exact)

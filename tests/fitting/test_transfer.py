@@ -68,6 +68,7 @@ def test_a_drift_of_one_run_hurts_another(learned: tuple[Arm, FittedModel], othe
     assert both.left_mm > 2 * transfer(learned[1], other, ["elastic"]).left_mm
 
 
+@pytest.mark.long
 def test_kept_frames_hold_where_nothing_moved(learned: tuple[Arm, FittedModel]) -> None:
     arm, _ = learned
     table = recorded(arm, one_run(arm, 150, 3), ARMS, NOISE, seed=4)

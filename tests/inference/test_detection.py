@@ -63,6 +63,7 @@ def test_noise_alone_seldom_looks_like_something(setting: tuple[Problem, np.ndar
     assert np.count_nonzero(odds > DETECTION.detected_nats) <= most
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("draws", [20, pytest.param(40, marks=pytest.mark.long)])
 def test_something_is_known_to_be_there_before_it_can_be_named(setting: tuple[Problem, np.ndarray], draws: int) -> None:
     problem, X = setting

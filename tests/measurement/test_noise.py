@@ -76,6 +76,7 @@ def test_reflectors_seen_at_one_pose_are_no_evidence_for_names(seed: int) -> Non
     assert verdict.noise_mm == pytest.approx(np.hypot(0.05, 0.01), rel=0.2)
 
 
+@pytest.mark.long
 def test_poses_visited_often_are_no_evidence_for_names() -> None:
     """Forty poses, each with an error of its own that no physics explains, visited 25 times each."""
     arm = arm_named("four-axis")
@@ -136,6 +137,7 @@ def test_constant_noise_stays_silent(seed: int) -> None:
         assert all(notice.kind != "noise by distance" for notice in verdict.notices)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rows", [*(pytest.param(rows, marks=pytest.mark.long) for rows in (8, 20)), 50])
 def test_few_rows_of_constant_noise_hardly_ever_seem_to_grow(rows: int) -> None:
     """Below 1 in 200 by the evidence asked for; a table of fifty rows that grows clearly is still seen to."""

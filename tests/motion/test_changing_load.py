@@ -42,6 +42,7 @@ def picked_up() -> tuple[World, MotionDiagnosis, Motions]:
     return world, *diagnosed(world)
 
 
+@pytest.mark.long
 def test_what_is_picked_up_is_told_with_its_moment_and_size(
     picked_up: tuple[World, MotionDiagnosis, Motions],
 ) -> None:

@@ -19,6 +19,7 @@ from tests.motion.moving import moved, robot, table
 from tests.seeds import seeds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_runs_of_which_one_is_sampled_four_times_more_slowly_name_nothing(seed: int) -> None:
     """A joint that turns back passes all low speeds between two of its samples: no friction near rest is told there."""
@@ -111,6 +112,7 @@ def test_a_table_appended_to_itself_says_from_which_row_on() -> None:
         mended(again)
 
 
+@pytest.mark.long
 def test_nothing_missing_says_how_coarsely_the_torque_was_recorded() -> None:
     motions = moved(robot(), 3)
     steps = np.array([0.0, 1.5, 0.0])

@@ -132,6 +132,7 @@ def test_the_cutoff_follows_the_motion_and_not_the_noise() -> None:
     assert chosen_cutoff(robot(), list(stretches(moved(robot(), 3, runs=1))), 6.0)[0].cutoff == 6.0
 
 
+@pytest.mark.long
 def test_rows_that_are_thinned_resolve_what_the_filter_lets_through(monkeypatch: pytest.MonkeyPatch) -> None:
     arm = robot()
     train = list(stretches(moved(arm, 3)))

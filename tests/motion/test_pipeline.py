@@ -86,6 +86,7 @@ def test_no_drive_gives_way_against_its_torque() -> None:
     assert "joint_compliance" not in [effect for effect, _ in names(diagnose_motion(robot(), motions))]
 
 
+@pytest.mark.long
 def test_a_torque_constant_that_is_off_is_no_drive_that_gives_way() -> None:
     def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         whole = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
@@ -101,6 +102,7 @@ def test_what_no_cause_has_is_located_and_not_called_something_else() -> None:
     assert found.verdict.answer == "cannot tell"
 
 
+@pytest.mark.long
 def test_friction_that_is_uneven_over_the_turn_is_located_with_its_size() -> None:
     def off_centre(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         return np.sign(dq) * (0.6 * np.cos(q) - 0.8 * np.sin(q)) * [0, 1, 0]
@@ -127,6 +129,7 @@ def test_a_delay_is_found_to_the_millisecond_though_friction_jumps() -> None:
     assert abs(found.verdict.effects[0].parameters[0].value - 0.03) < 0.001
 
 
+@pytest.mark.long
 def test_friction_that_turns_early_takes_nothing_from_the_rotor() -> None:
     def early(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         return COULOMB * (np.sign(dq + 0.002 * ddq) - np.sign(dq))
@@ -145,6 +148,7 @@ def test_a_payload_that_nobody_stated_is_weighed() -> None:
     assert low - 0.05 < 1.5 < high + 0.05
 
 
+@pytest.mark.long
 def test_a_run_that_is_held_out_takes_no_part() -> None:
     arm = robot()
     motions = moved(arm, 4)

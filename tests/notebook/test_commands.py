@@ -31,6 +31,7 @@ def test_importing_imports_nothing_heavy():
         _ = armscope.diagnoze
 
 
+@pytest.mark.long
 def test_a_paragraph_and_a_table_say_the_same_causes(found):
     assert isinstance(found, Diagnosed)
     assert found.effects[0].title in repr(found)

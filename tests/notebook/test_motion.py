@@ -36,6 +36,7 @@ def test_a_paragraph_and_a_table_say_the_same_causes(found):
     assert json.dumps(found.to_json())
 
 
+@pytest.mark.long
 def test_it_writes_predicts_and_draws_what_the_command_does(found, tmp_path):
     assert found.report(tmp_path / "out").name == "report.html"
     names = {path.name for path in (tmp_path / "out").iterdir()}

@@ -30,6 +30,7 @@ def one_effect() -> tuple[pd.DataFrame, Diagnosed]:
     return recordings, found
 
 
+@pytest.mark.long
 def test_a_run_that_the_model_does_not_know_is_said(one_effect: tuple[pd.DataFrame, Diagnosed]) -> None:
     recordings, found = one_effect
     for predict in (found.predict, lambda rows: armscope.predict(found, rows)):

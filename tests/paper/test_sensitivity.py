@@ -49,6 +49,7 @@ def test_the_joint_design_changes_several(plan, varied):
     assert len({each.level for each in joint}) == 3
 
 
+@pytest.mark.long
 def test_a_geometry_that_cannot_reach_is_told_before_anything_runs(plan):
     far = replace(plan, paths=replace(plan.paths, corners_mm=((9000, 0, 0), *plan.paths.corners_mm[1:])))
     with pytest.raises(InputError, match=r"corners.*trajectory test 1: point 1"):

@@ -73,6 +73,7 @@ def compared(choice):
     return compare_sets(choice, NOISE, 15)
 
 
+@pytest.mark.long
 def test_chosen_poses_beat_random_ones_and_a_grid(compared):
     table = compared
     for other in ("random", "grid"):

@@ -47,6 +47,7 @@ def proof(tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 def test_every_step_leaves_what_the_next_one_reads_and_a_report(proof):
     assert (proof / "report.html").stat().st_size > 100_000
     worlds = pd.read_csv(proof / "tables" / "worlds.csv")

@@ -77,6 +77,7 @@ def test_one_arm_agrees_with_itself_and_a_softer_one_does_not(runs, arms):
     assert (found["held"] >= 0.8 * found["numbers"]).all()
 
 
+@pytest.mark.long
 def test_a_run_of_two_joints_knows_that_it_cannot_tell_drives_apart(runs):
     arm, everywhere, two = runs
     rng = np.random.default_rng(5)

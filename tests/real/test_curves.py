@@ -32,6 +32,7 @@ def learned():
     return diagnose(arm(), rows, Settings(resamples=0, cross_validation=False))
 
 
+@pytest.mark.long
 def test_what_a_curve_turns_is_the_wave_that_was_planted(learned):
     rows = as_recordings(table(200, NOISE_MM, seed=1, error_rad=ripple), "made up", 6)
     turned = turned_by_curves(learned.model, rows).motor_angles - rows.motor_angles

@@ -46,6 +46,7 @@ def turned(simulated, joint, amount):
     return BASE.apply(forward_kinematics(arm(), moved) - forward_kinematics(arm(), angles))
 
 
+@pytest.mark.long
 def test_nothing_is_concealed_in_an_arm_without_rows():
     urdf = str(Path(__file__).parents[1] / "robot" / "torso_arm.urdf")
     description = RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1})
@@ -144,6 +145,7 @@ def test_without_masses_and_torques_nothing_gives_way():
         planted(simulated, "joint_compliance")
 
 
+@pytest.mark.long
 def test_a_joint_that_stands_still_conceals_nothing_that_follows_its_angle():
     rows = table()
     rows["q4_rad"] = 0.3

@@ -96,6 +96,7 @@ def test_the_best_figure_is_the_one_to_reach(measured):
     assert run.model_copy(update={"best": None}).lowest.mm == 1.5
 
 
+@pytest.mark.long
 def test_what_belongs_to_the_arm_carries_over_to_a_run_in_another_place():
     rows = recordings(
         table(120, NOISE_MM, error_rad=offsets), table(60, NOISE_MM, seed=1, error_rad=offsets, run="two")

@@ -67,6 +67,7 @@ def reported(tmp_path_factory):
     return pages
 
 
+@pytest.mark.long
 def test_a_report_on_hostile_names_has_the_scripts_of_one_on_harmless_names(reported):
     hostile, harmless = reported["hostile"], reported["harmless"]
     assert len(hostile.scripts) == len(harmless.scripts)

@@ -82,6 +82,7 @@ def compared(tmp_path):
     return tmp_path / "out"
 
 
+@pytest.mark.long
 def test_the_history_of_a_comparison(compared):
     assert f"{NAME}2" in set(pd.read_csv(compared / "history.csv")["recording"])
     drawn = parsed((compared / "history.svg").read_text())

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from armscope.report.figures.twist import draw_twist
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.pages.motion import write_motion_report
@@ -9,6 +11,7 @@ from armscope.report.sections.motion_links import links_of_motion
 from tests.motion.two_inertias import wound_up
 
 
+@pytest.mark.long
 def test_a_drive_that_winds_up_has_a_card_and_a_figure(tmp_path: Path) -> None:
     found = wound_up()
     page = write_motion_report(found, "motions.csv", tmp_path).read_text(encoding="utf-8")

@@ -82,6 +82,7 @@ def test_bad_shots_take_no_part(verdict) -> None:
     assert {3, 7}.isdisjoint(contributions(shot).rows.tolist())
 
 
+@pytest.mark.long
 def test_a_base_that_jumped_between_runs_has_its_share_its_worth_and_its_task(world: World) -> None:
     """Runs that stand on one base: what jumped is the error, and no frame of a run takes it up."""
     frames, rng = forward_frames(world.arm, world.session.commanded), np.random.default_rng(2)

@@ -143,6 +143,7 @@ def test_a_column_that_would_show_the_effect_can_be_missing(tmp_path):
     assert truth["scoring"]["columns_left_out"] == ["approach"]
 
 
+@pytest.mark.long
 def test_a_base_that_moves_is_not_given_away_or_hidden_by_runs(tmp_path):
     for seed in range(5):
         home = build(spec(effects=[{"kind": "base_drift", "strength": 4.0}], seed=seed), tmp_path, ROBOTS)

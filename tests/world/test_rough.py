@@ -203,6 +203,7 @@ def built(tmp_path_factory):
     )
 
 
+@pytest.mark.long
 def test_a_cause_stands_out_of_what_is_everywhere_and_takes_the_place_of_its_like(built):
     truth, *_ = built
     (bars,) = [effect for effect in truth["effects"] if effect["location"] == "parallelogram"]

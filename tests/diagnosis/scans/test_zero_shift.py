@@ -80,6 +80,7 @@ def test_a_zero_that_creeps_is_no_jump() -> None:
     assert drifts(verdict) == [("unknown", "joint 3")]
 
 
+@pytest.mark.long
 def test_an_arm_that_stands_still_in_the_session_has_no_jump() -> None:
     assert not drifts(said(WITHOUT_WRIST, still, seed=14, time=15.0 * np.arange(ROWS)))
 

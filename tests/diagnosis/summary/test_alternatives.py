@@ -139,6 +139,7 @@ def test_what_was_refused_beside_an_effect_does_not_take_its_place(alike: float)
     assert [rival.candidate.kind for rival in rivals] == (["other"] if alike else [])
 
 
+@pytest.mark.long
 def test_rows_that_are_drawn_twice_make_no_noise_smaller(monkeypatch: pytest.MonkeyPatch) -> None:
     """Twice the same reading to the last digit looks as if there was none: any curve through it was then right."""
     told, drawn = [], []

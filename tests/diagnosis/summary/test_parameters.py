@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.diagnosis import Settings, diagnose
 from armscope.diagnosis.summary.parameters import beyond_plausible, undetermined
@@ -25,6 +26,7 @@ def test_a_value_whose_error_is_as_large_as_any_arms_is_left_open() -> None:
     assert undetermined(placed, np.diag(stderr**2)) == ("d",)
 
 
+@pytest.mark.long
 def test_lengths_along_parallel_axes_that_only_their_sum_shows_are_not_told_singly() -> None:
     """d of link 2 and of link 3 shift the arm alike: axes 2 and 3 are parallel."""
     arm, table = planted("six-axis", {("link_geometry", "link 2"): [0.0, 0.0, 1.5e-3]}, 120, 0.02, seed=4)

@@ -45,6 +45,7 @@ def test_rounding_is_noise_of_known_size_and_no_scatter_of_a_joint(arm: Arm) -> 
     assert "record more digits" in verdict.headline
 
 
+@pytest.mark.long
 def test_poses_commanded_in_round_numbers_have_no_such_noise(arm: Arm) -> None:
     table = recorded(arm, rounded(one_run(arm, 150, 8)), {}, NOISE_MM, seed=8)
     verdict = diagnose(arm, table, QUICK)

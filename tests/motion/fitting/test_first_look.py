@@ -28,6 +28,7 @@ def longest() -> Stretch:
     return next(stretches(moved(robot(), 3, rippled)))
 
 
+@pytest.mark.long
 def test_waves_of_a_strain_wave_gear_are_seen(longest: Stretch, monkeypatch: pytest.MonkeyPatch) -> None:
     counts, tried = first_look(robot(), longest, HOW).waves[1]
     assert 160 in counts

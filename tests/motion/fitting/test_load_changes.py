@@ -94,6 +94,7 @@ def test_a_spell_more_explains_what_plain_least_squares_say() -> None:
     assert more < 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("found", [(), (NO_LOAD,)])
 def test_a_selection_stays_as_it_is_where_no_change_gets_a_name(
     found: tuple[Change, ...], monkeypatch: pytest.MonkeyPatch

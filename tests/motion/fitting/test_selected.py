@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from armscope.motion.fitting.selected import coefficients_of
 from armscope.motion.pipeline import diagnose_motion
 from tests.motion.moving import moved, robot
 
 
+@pytest.mark.long
 def test_what_is_left_is_measured_less_modelled_and_worked_out_once() -> None:
     selected = diagnose_motion(robot(), moved(robot(), 3, seconds=10.0)).selected
     rows = selected.rows

@@ -30,6 +30,7 @@ def found() -> MotionDiagnosis:
     return diagnose_motion(arm, moved(arm, 3, late), MotionSettings(cutoff=10.0))
 
 
+@pytest.mark.long
 def test_a_joint_that_is_mostly_friction_is_as_late_as_it_was_made(found: MotionDiagnosis) -> None:
     (cause,) = (each for each in found.verdict.effects if each.effect == "torque_delay" and not each.minor)
     (delay,) = cause.parameters

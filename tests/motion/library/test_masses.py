@@ -23,6 +23,7 @@ OFF_M = np.array([0.0, 0.12, 0.0])
 """Of link 3; its square is a fifth of what the link's inertia about its joint is."""
 
 
+@pytest.mark.long
 def test_a_centre_far_off_is_one_cause_and_no_inertia_beside_it() -> None:
     arm = robot()
     stated = arm.inertial[20:30]
@@ -104,6 +105,7 @@ GRIPPER = pin.Inertia(0.8, np.array([0.31, 0.02, 0.03]), np.diag([0.004, 0.009, 
 """kg, m in the last joint's frame, kg m^2 about its own centre."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("link", [pytest.param(1.0, marks=pytest.mark.long), 0.97])
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_load_with_an_inertia_of_its_own_is_a_load(seed: int, link: float) -> None:

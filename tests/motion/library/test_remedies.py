@@ -193,8 +193,8 @@ CASES = {
 }
 
 
-AGAIN = ("dry", "viscous", "centre of the last", "payload")
-"""The same card as another's: as the rotor's, which is one more number of a drive, or of a case that is easier."""
+AGAIN = ("dry", "viscous", "centre of the last", "payload", "delay", "centre", "inertia", "gravity")
+"""Cards like another's: as the rotor's, one more number of a drive; of an easier case; or a slow one."""
 
 
 @pytest.mark.parametrize("kind", [pytest.param(kind, marks=[pytest.mark.long] * (kind in AGAIN)) for kind in CASES])

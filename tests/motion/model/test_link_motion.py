@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from armscope.motion.model.file import load_motion_model, save_motion_model
 from armscope.motion.predicting import torque_table
@@ -10,6 +11,7 @@ from armscope.recordings.motions import as_motions
 from tests.motion.two_inertias import recorded, spring, wound_up
 
 
+@pytest.mark.long
 def test_a_saved_model_foretells_the_link_and_the_torque_of_another_path(tmp_path: Path) -> None:
     found = wound_up()
     save_motion_model(tmp_path / "model.yaml", found.model)

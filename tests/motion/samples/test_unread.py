@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.motion.check import check_motions
 from armscope.motion.pipeline import diagnose_motion
@@ -45,6 +46,7 @@ def test_another_run_is_no_more_of_the_same() -> None:
     assert not unread(run, TIME, np.sin(3 * TIME)[:, None], effort).any()
 
 
+@pytest.mark.long
 def test_a_channel_that_fell_out_takes_nothing_else_along() -> None:
     motions = moved(robot(), 3, seconds=10.0)
     fell = motions.effort.copy()

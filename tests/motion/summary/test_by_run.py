@@ -47,12 +47,14 @@ def test_friction_that_differs_by_run_is_told_at_its_joint(dry: bool, follows: s
     assert f"following the {follows}, otherwise" in verdict.unexplained.description
 
 
+@pytest.mark.long
 def test_friction_that_is_the_same_in_all_runs_is_not() -> None:
     found = diagnosed(None)
     assert not friction_by_run(found.selected)
     assert found.verdict.answer == "nothing missing"
 
 
+@pytest.mark.long
 def test_friction_that_follows_the_recorded_temperature_has_its_name() -> None:
     found = diagnosed(warming(iter([0.6, 0.0, -0.6])), temperature=True)
     assert [(each.effect, each.location) for each in found.verdict.effects] == [("thermal_friction", "joint 2")]

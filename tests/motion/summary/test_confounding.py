@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.summary.confounding import EVERY_JOINT, gains_instead
@@ -26,6 +27,7 @@ def load_of(found: MotionDiagnosis) -> int:
     return next(n for n in found.selected.best.candidates if placed[n].cause.name == "payload_error")
 
 
+@pytest.mark.long
 def test_gains_can_stand_in_the_place_of_a_load_where_currents_were_recorded() -> None:
     found = weighed(robot(drives=DRIVES), "current")
     rival = gains_instead(found.selected, load_of(found))
@@ -35,6 +37,7 @@ def test_gains_can_stand_in_the_place_of_a_load_where_currents_were_recorded() -
     assert rival.evidence_gap_nats > 20, "a load that hangs at the tool is not a factor of all torques"
 
 
+@pytest.mark.long
 def test_they_can_not_where_torques_were() -> None:
     found = weighed(robot(), "torque")
     assert gains_instead(found.selected, load_of(found)) is None

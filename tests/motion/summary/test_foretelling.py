@@ -27,6 +27,7 @@ def harming(selected: SelectedCauses, share: float) -> Array:
     return nats
 
 
+@pytest.mark.long
 def test_a_background_that_does_harm_elsewhere_goes(selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(foretelling, "misfits", lambda at, asked: harming(selected, 0.5))
     found, without = with_backgrounds_that_foretell(selected)

@@ -26,6 +26,7 @@ def driving(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
+@pytest.mark.long
 def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
     arm = robot()
     selected = diagnose_motion(arm, moved(arm, 3, driving), MotionSettings(cutoff=10.0)).selected
@@ -67,6 +68,7 @@ def test_errors_do_not_hang_on_what_holds_joints_in_pauses(seed: int) -> None:
         assert max(step.held_out for step in verdict.waterfall) < noise
 
 
+@pytest.mark.long
 def test_a_fold_names_nothing_that_is_there_in_its_own_run_only() -> None:
     """On a single run a load "in this run" is the load in all runs; it foretold nothing of the other."""
     arm = robot()

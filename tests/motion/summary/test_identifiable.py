@@ -3,6 +3,7 @@
 import warnings
 
 import numpy as np
+import pytest
 
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.recordings.motions import Motions, as_motions
@@ -36,6 +37,7 @@ def test_a_path_that_excites_little_says_what_it_leaves_unknown() -> None:
     assert verdict.identifiable["condition"] > 1000
 
 
+@pytest.mark.long
 def test_a_lively_path_is_told_nothing_of_the_kind() -> None:
     verdict = diagnose_motion(robot(), moved(robot(), 1, seconds=10.0), MotionSettings(cutoff=10.0)).verdict
     assert not [notice for notice in verdict.notices if notice.kind == "little excited"]

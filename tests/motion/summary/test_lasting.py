@@ -48,6 +48,7 @@ def test_smooth_torque_without_a_law_is_told_with_its_place_and_what_it_follows(
     assert 0.3 * np.std(planted) < told.rms < 1.1 * np.std(planted)
 
 
+@pytest.mark.long
 def test_noise_that_lasts_is_not_told() -> None:
     found = diagnosed(wandering)
     assert max(found.selected.weights.correlated) > 20  # it lasts

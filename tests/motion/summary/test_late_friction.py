@@ -52,6 +52,7 @@ def test_friction_in_time_with_its_speed_is_not() -> None:
     assert not notices(0.0015)
 
 
+@pytest.mark.long
 def test_a_joint_that_pauses_changes_no_sides_too_soon() -> None:
     """Before it moves again its motor builds up what breaks it loose: that is no time of its friction."""
     found = diagnosed(-0.012)

@@ -13,6 +13,7 @@ from tests.motion.test_changing_load import diagnosed
 from tests.seeds import seeds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(4, 8))
 def test_a_load_that_nobody_stated_is_told_though_the_last_link_may_be_off_in_any_way(seed: int) -> None:
     """Three joints from point to point: that link would need ten numbers of its own, and to be the only one."""
@@ -23,6 +24,7 @@ def test_a_load_that_nobody_stated_is_told_though_the_last_link_may_be_off_in_an
     assert abs(mass.value - world.mass) < INTERVAL * mass.stderr < 0.6 * world.mass
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(204))
 def test_a_load_that_masses_without_a_name_may_be_is_the_likeliest_of_names(seed: int) -> None:
     """Here the same arm moves so that all links a little off say it nearly as well."""

@@ -40,6 +40,7 @@ def told(found: MotionDiagnosis, kind: str) -> dict[str, FoundCause]:
     return {each.location: each for each in found.verdict.effects if each.effect == kind and not each.minor}
 
 
+@pytest.mark.long
 def test_links_that_are_all_off_are_told_one_by_one(leaning: MotionDiagnosis) -> None:
     masses = told(leaning, "link_mass")
     assert [*sorted(masses)] == ["link 2", "link 3"]  # the first one turns about a plumb line: nobody can weigh it
@@ -67,6 +68,7 @@ def test_the_model_holds_links_without_a_name_in_proportion(leaning: MotionDiagn
     np.testing.assert_allclose(fitted[1:], [8 * OFF[1], 4 * OFF[2]], rtol=0.02)
 
 
+@pytest.mark.long
 def test_a_link_that_alone_is_off_has_its_name_as_ever() -> None:
     found = off_by((1.0, 1.2, 1.0))
     assert [*told(found, "link_mass")] == ["link 2"]

@@ -47,6 +47,7 @@ def explained_by(selected: SelectedCauses, without: Array) -> float:
     return float(b @ np.linalg.solve(G + np.diag(ridge), b))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("share", [1.0, pytest.param(2.0, marks=pytest.mark.long)])
 def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
     """A small cause with a name is not left alone beside an error that falls for another reason."""
@@ -65,6 +66,7 @@ def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
     assert sum(explained) + added < 1 - left**2  # what either of them explains is not told twice
 
 
+@pytest.mark.long
 def test_masses_that_are_as_stated_explain_nothing() -> None:
     found = diagnose_motion(robot(), moved(robot(), 1, pulled, noise=0.005))
     explained, by_masses = shares_of(found.selected)

@@ -56,6 +56,7 @@ def test_friction_below_zero_is_no_friction(selected: SelectedCauses, stands: Se
     assert ("unknown", "joint 2") in names(stands)
 
 
+@pytest.mark.long
 def test_what_comes_in_place_of_a_struck_name_foretells_motion(
     selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch
 ) -> None:

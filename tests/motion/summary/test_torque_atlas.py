@@ -34,6 +34,7 @@ def test_a_clean_arm_stays_dark(seed: int) -> None:
     assert np.nanmax(atlas.left) < 0.03
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("plant", "joint", "driver"),
     [

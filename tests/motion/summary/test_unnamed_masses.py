@@ -41,6 +41,7 @@ def named(selected: SelectedCauses, number: int) -> SelectedCauses:
     return dataclasses.replace(selected, best=best)
 
 
+@pytest.mark.long
 def test_a_heavier_link_is_told_from_one_that_is_otherwise_off(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where every path tells its size it stands, too, though masses without a name foretell as much."""
     heavier: dict[str, Any] = {
@@ -71,6 +72,7 @@ def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
     assert mass not in selected.best.candidates
 
 
+@pytest.mark.long
 def test_a_link_whose_centre_alone_is_elsewhere_has_that_name() -> None:
     """Ten numbers of that link without a name say it, too, and nothing but their number speaks against them.
 
@@ -84,6 +86,7 @@ def test_a_link_whose_centre_alone_is_elsewhere_has_that_name() -> None:
     assert odds_of_name(selected, shift) > INDISTINGUISHABLE_NATS
 
 
+@pytest.mark.long
 def test_a_name_that_is_all_a_link_can_say_has_no_rival_without_a_name() -> None:
     """The first link stands upright: of its ten numbers its inertia about the axis is the only one that shows."""
     wider = {**FIRST, "inertia_kg_m2": [0.3, 0.48, 0.3, 0, 0, 0]}  # type: ignore[dict-item]

@@ -112,6 +112,7 @@ def test_the_motion_keeps_all_limits_and_is_better_than_random(six, found):
     assert found.after.condition < found.before.condition
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("harmonics", [pytest.param(5, marks=pytest.mark.long), 20])
 def test_torque_stays_within_its_limit_between_the_samples_too(six, harmonics):
     """By MuJoCo, every 2 ms: motors that can give hardly more than a motion asks for; waves of half a second."""
@@ -141,6 +142,7 @@ def test_a_floor_is_kept_clear_of(six):
     assert clear.refused > 0
 
 
+@pytest.mark.long
 def test_a_motion_of_little_torque_is_asked_for_where_motors_are_weak(six):
     drives = [drive.model_copy(update={"torque_nm": drive.torque_nm * 0.7}) for drive in six.description.drives]
     weak = build_arm(six.description.model_copy(update={"drives": tuple(drives)}))

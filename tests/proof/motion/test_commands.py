@@ -65,6 +65,7 @@ def test_a_verdict_without_prediction_keeps_its_names_and_is_infinitely_wrong_on
     assert "model.yaml" in answer.not_predicted
 
 
+@pytest.mark.long
 def test_a_world_that_cannot_be_diagnosed_is_written_down_as_failed(tmp_path):
     world = tmp_path / "visible" / "motion-007"
     world.mkdir(parents=True)

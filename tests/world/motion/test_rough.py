@@ -102,6 +102,7 @@ def test_slow_runs_are_slow_and_the_test_is_not():
         np.testing.assert_allclose(slope[5:-5], session.speed[run][5:-5], atol=2e-3 * np.abs(slope).max())
 
 
+@pytest.mark.long
 def test_truth_tells_what_is_rough_apart_from_what_is_asked_for(tmp_path):
     home = build(spec(("torque_offset", 3.0, "joint 2"), category="rough", rough=ALL, current=True), tmp_path, FOLDER)
     truth = yaml.safe_load((home / "sealed" / "truth.yaml").read_text(encoding="utf-8"))

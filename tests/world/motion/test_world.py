@@ -123,6 +123,7 @@ def test_what_friction_takes_up_has_no_size():
         place(virtual, KINDS["viscous_friction"], 3.0, None, np.random.default_rng(0), virtual.torques([]))
 
 
+@pytest.mark.long
 def test_another_arm_conceals_what_this_one_cannot():
     """The stage of two axes has no wrist that could be coupled."""
     world = make(spec(("coupled_friction", 3.0, None)), FOLDER)
