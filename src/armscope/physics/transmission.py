@@ -87,7 +87,8 @@ GEAR_ECCENTRICITY = Effect(
     "transmission",
     _place_eccentricities,
     "A gear or the encoder's disc sits off its centre, so the angle error repeats once or twice per joint turn.",
-    "Turn the joint alone in steps of 10 degrees over a full turn and look for one or two waves.",
+    "Turn the joint alone in steps of 10 degrees over its whole range and look for one or two waves per turn. On a "
+    "wrist do it again with its hoses and cables hanging free: what goes then was their pull.",
     command(
         "Re-centre the encoder disc or gear,",
         otherwise="or store the wave as a correction table: "
