@@ -100,7 +100,9 @@ def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
-def behind_its_drive(arm: MovingArm, joint: int, compliance: float, seed: int = 1, noise: float = 0.02) -> pd.DataFrame:
+def behind_its_drive(
+    arm: MovingArm, joint: int, compliance: float, seed: int = 1, noise: float = 0.02, seconds: float = 10.0
+) -> pd.DataFrame:
     """motions.csv of an arm one of whose drives gives way, exactly: links move as they do, the motor where it must be.
 
     Its encoder stands at the link's angle and compliance x the link's torque; friction and rotor are the motor's.
@@ -108,7 +110,7 @@ def behind_its_drive(arm: MovingArm, joint: int, compliance: float, seed: int = 
     rng, pieces, n = np.random.default_rng(seed), [], arm.n_motors
     data = arm.model.createData()
     for run in range(2):
-        time, q, dq, ddq = path(rng, n, 10.0, 200.0)
+        time, q, dq, ddq = path(rng, n, seconds, 200.0)
         rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
         lag = make_interp_spline(time, compliance * rigid[:, joint], k=5)
         for order, values in enumerate((q, dq, ddq)):

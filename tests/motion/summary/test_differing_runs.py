@@ -57,15 +57,7 @@ AGAIN = "gain of a torque of one sign"
 """What may be either of two that are asked for."""
 
 
-TAKEN_FOR_A_LOAD = pytest.mark.xfail(
-    strict=True, reason="a load in run 2 with its centre at joint 3's axis, where no flange is, fits as well"
-)
-
-
-@pytest.mark.parametrize(
-    "kind",
-    [pytest.param(kind, marks=[pytest.mark.long, TAKEN_FOR_A_LOAD] if kind == AGAIN else []) for kind in CASES],
-)
+@pytest.mark.parametrize("kind", [pytest.param(kind, marks=[pytest.mark.long] * (kind == AGAIN)) for kind in CASES])
 def test_what_differs_in_some_runs_is_told_at_its_joint(kind: str) -> None:
     """It counted as noise that lasts, and nothing was missing: 8 of 8 simulated arms."""
     joint, reading, words = CASES[kind]

@@ -52,6 +52,12 @@ class NamingRules(Constants):
         "judgement: a fifth of it is then as likely as nearly twice of it",
         unit="1",
     )
+    at_the_flange: float = constant(
+        1 / 3,
+        "share of the flange's lever about the last joint within which a load is none that hangs at it",
+        "judgement: a load hangs at the flange or beyond, which may be stated too far out; where the last axis goes "
+        "through the flange it asks for nothing",
+    )
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,23 @@ def no_link(selected: SelectedCauses, number: int) -> bool:
     return bool(found[0] < -there - CONSISTENCY.below * error)
 
 
+def not_at_the_flange(selected: SelectedCauses, number: int) -> bool:
+    """Whether a load with a place of its own turns about the last joint where the flange does not: inside the arm.
+
+    What one joint's torque reads too large in one run looks like that, where no other joint feels it.
+    """
+    layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
+    names, axis = [name for name, _ in placed.parameters], layout.arm.last_axis()
+    if placed.cause is not catalogue.PAYLOAD or names[:4] != ["mass", "mx", "my", "mz"] or not axis.any():
+        return False
+    columns = layout.columns[number][:4]
+    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+    mass, *moments = selected.coefficients[columns]
+    least = NAMING.at_the_flange * np.linalg.norm(np.cross(axis, layout.arm.point_load()[-9:-6])) * abs(mass)
+    unsure = INTERVAL * np.linalg.norm(np.cross(axis, error[1:]))
+    return bool(np.linalg.norm(np.cross(axis, moments)) + unsure < least)
+
+
 def no_load(selected: SelectedCauses, number: int) -> bool:
     """Whether what is picked up or put down is none: heavier than an arm, beyond its reach, or not determined.
 

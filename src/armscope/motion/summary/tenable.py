@@ -30,7 +30,7 @@ from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
-from armscope.motion.summary.no_bodies import no_link, no_load, no_place
+from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -111,6 +111,7 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
         error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
         below = np.any(selected.coefficients[columns] < least - CONSISTENCY.below * error)
         nothing = no_load(selected, number) or no_link(selected, number) or _pulls_and_pushes(selected, number)
+        nothing = nothing or not_at_the_flange(selected, number)
         if below or nothing or (is_anywhere(placed) and no_place(selected, number)):
             yield number
         elif (swing := swing_hz(selected, number)) is not None and swing < motion_hz(selected, placed.joints[0]):
