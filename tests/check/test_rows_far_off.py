@@ -39,3 +39,12 @@ def test_the_first_row_of_a_run_has_none_before_it(arm, sound):
     run = np.where(np.arange(len(sound)) < 40, "a", "b")
     table = again(replace(sound, run=run), [40])
     assert "row before" not in " ".join(each.text() for each in check(table, arm).suspicions)
+
+
+def test_neighbours_that_exchanged_their_points_are_told_as_that(arm, sound):
+    order = np.arange(len(sound))
+    order[[20, 21]] = [21, 20]
+    table = replace(sound, positions=sound.positions[order], orientation=sound.orientation[order])
+    told = " ".join(each.text() for each in check(table, arm).suspicions)
+    assert "2 rows seem to have exchanged their points: a: 21, a: 22" in told
+    assert "row before" not in told

@@ -64,9 +64,13 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
 
 
 def _of_the_row_before(table: Recordings, predicted: Array, far: Indices, near: float) -> Array:
-    """(n,) bool: which of rows far off hold the point of the row before in their run, to within ``near`` m."""
+    """(n,) bool: which of rows far off hold the point of the row before in their run, to within ``near`` m.
+
+    Not where the row before holds theirs: then the two exchanged their points.
+    """
     off = np.linalg.norm(table.positions[far] - predicted[far - 1], axis=1)
-    return np.asarray((far > 0) & (table.run[far] == table.run[far - 1]) & (off < near))
+    exchanged = np.linalg.norm(table.positions[far - 1] - predicted[far], axis=1) < near
+    return np.asarray((far > 0) & (table.run[far] == table.run[far - 1]) & (off < near) & ~exchanged)
 
 
 def _assigned(predicted: Array, measured: Array, base: Indices) -> tuple[Indices, Indices]:

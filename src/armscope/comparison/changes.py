@@ -119,7 +119,7 @@ def _worse_as_a_load(model: SharedModel, everything: Sequence[Possible], taken: 
     alike = [each for each in taken if follows_loads(each.placed.name)]
     sets = {each.sets for each in alike}
     loads = [each for each in everything if each.placed.effect is ANOTHER_LOAD and each.sets in sets]
-    if not loads:
+    if not loads or len(sets) > 1:  # a load that changed twice may look like changes in different recordings
         return None
     one_by_one = [model.scores([each], [*beside, *alike[:before]])[0] for before, each in enumerate(alike)]
     theirs = sum(score.better_fit_nats for score in one_by_one)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.unexplained import load_in_question
+from armscope.physics.effect import Part
+from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Background
 
@@ -57,3 +61,20 @@ def test_where_repeats_scatter_as_all_does_nothing_is_left() -> None:
     found = diagnose(arm_named("six-axis"), twice(0.0), QUICK)
     assert found.answer == "nothing missing"
     assert not found.unexplained.present
+
+
+@pytest.mark.parametrize(("variant", "asked"), [(UNKNOWN_MASSES, True), ("", False)])
+def test_what_hangs_at_the_flange_is_asked_where_stated_masses_do_not_fit(variant: str, asked: bool) -> None:
+    """A gripper of 30 kg that nobody had stated made the drives of a wrist come out fifteen times too soft."""
+    arm = arm_named("six-axis")
+    drives = {
+        each.variant: each for each in JOINT_COMPLIANCE.place(arm, one_run(arm, 40, 3)) if each.location == "joint 2"
+    }
+    part = Part(drives[variant], np.full(len(drives[variant].terms), 1e-6))
+    state = SimpleNamespace(fit=SimpleNamespace(model=SimpleNamespace(arm=arm, parts=(part,))))
+    told = load_in_question(state)
+    assert bool(told) == asked
+    if asked:
+        assert told[0].text.startswith("Joint 2 gives way to another load than the stated masses make")
+    unknown = SimpleNamespace(arm=replace(arm, masses=np.zeros_like(arm.masses)), parts=(part,))
+    assert not load_in_question(SimpleNamespace(fit=SimpleNamespace(model=unknown)))

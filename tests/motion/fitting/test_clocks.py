@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -94,3 +95,14 @@ def test_what_is_alike_is_not_parted(shifted: MotionDiagnosis) -> None:
     selected = shifted.selected
     best = parted_where_they_differ(Search.on(selected.problem), selected.best, selected.rows.layout.placed)
     assert best.candidates == selected.best.candidates
+
+
+@pytest.mark.long
+def test_who_shifts_all_torques_as_the_card_says_has_no_delay_left(shifted: MotionDiagnosis) -> None:
+    (cause,) = (each for each in shifted.verdict.effects if not each.minor)
+    said = re.match(r"Shift the recorded torque of all joints ([0-9.]+) ± \S+ ms (earlier|later)", cause.cure)
+    assert said is not None
+    by = float(said[1]) * 1e-3 * {"earlier": -1, "later": 1}[said[2]]
+    cured = diagnose_motion(robot(), read_by(lambda torque, _: later(later(torque, LATE_S), by))).verdict
+    assert not [each for each in cured.effects if each.effect == "torque_delay" and not each.minor]
+    assert cured.held_out.model < 1.2 * shifted.verdict.held_out.model

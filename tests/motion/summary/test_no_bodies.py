@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -49,9 +50,18 @@ def test_no_link_or_load_is_told_that_weighs_less_than_nothing() -> None:
 
 @pytest.mark.long
 def test_what_one_joint_reads_too_large_in_a_run_is_no_load_inside_the_arm() -> None:
-    """A tenth more at joint 2 in one of three runs: 0.94 kg on the axis of joint 3, 0.3 m from the flange, fitted it.
-
-    A load that does hang there in one run keeps its name: `carrying` in the tests of what differs by run.
-    """
+    """A tenth more at joint 2 in one run of three: 0.94 kg on joint 3's axis, 0.3 m from the flange, fitted it."""
     found = diagnosed(1, lambda run, at, torque: (0.0, 0.1, -0.08)[run] * torque).verdict
     assert not [each for each in found.effects if each.location == "payload"]
+
+
+@pytest.mark.long
+def test_a_load_at_the_flange_in_one_run_has_its_name() -> None:
+    without, loaded = (
+        moved(arm, 3, runs=3) for arm in (robot(), robot(tool_load={"mass_kg": 1.5, "com_mm": [0, 0, 0]}))
+    )
+    there = (without.run == "path 2")[:, None]
+    found = diagnose_motion(robot(), replace(without, effort=np.where(there, loaded.effort, without.effort))).verdict
+    (told,) = [each for each in found.effects if not each.minor]
+    assert told.location == "payload"
+    assert told.parameters[0].value == pytest.approx(1.5, abs=0.15)

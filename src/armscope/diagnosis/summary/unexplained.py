@@ -125,8 +125,8 @@ def load_in_question(state: DiagnosisState) -> list[Notice]:
     text = (
         f"{capitalised(places_in_words(by_others))} give{'s' * (len(by_others) == 1)} way to another load than the "
         "stated masses make: does something hang at the flange that nobody stated (`tool_load` in robot.yaml, "
-        "`payload_kg` in the recordings), or does a spring balance a joint? State it and diagnose again, before drives "
-        "are corrected one by one: what their stiffness is told to be beside a wrong load is wrong, too."
+        "`payload_kg` in the recordings), does a spring balance a joint, or are those masses off? State what is there "
+        "and diagnose again, before drives are corrected one by one: stiffness told beside a wrong load is wrong, too."
     )
     return [Notice("load in question", text)]
 
