@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.robot.bodies import Bodies, slopes
+from armscope.robot.bodies import Bodies, last_axis, slopes
 from armscope.robot.dynamics import MovingArm
 from tests.motion.moving import robot
 
@@ -46,3 +46,12 @@ def test_of_masses_that_no_body_has_the_stated_ones_count() -> None:
     wild[10] = -1.0
     for found, expected in zip(slopes(arm, MOTION, wild), slopes(arm, MOTION, arm.inertial), strict=True):
         np.testing.assert_array_equal(found, expected)
+
+
+def test_mass_on_the_last_axis_does_not_turn_the_last_joint() -> None:
+    arm, rng = robot(), np.random.default_rng(4)
+    q, nothing = rng.normal(size=(30, 3)), np.zeros((30, 3))
+    turned = arm.regressor(q, nothing, nothing)[:, 2, -9:-6]
+    across = np.cross(last_axis(arm), [1.0, 2.0, 0.0])
+    assert turned @ last_axis(arm) == pytest.approx(np.zeros(30), abs=1e-12)
+    assert np.abs(turned @ across).max() > 1

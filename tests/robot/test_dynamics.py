@@ -51,15 +51,6 @@ def test_a_kilogram_at_the_tool_weighs_what_it_weighs() -> None:
     assert arm.inertial + arm.point_load() == pytest.approx(heavier.inertial, abs=1e-9)
 
 
-def test_mass_on_the_last_axis_does_not_turn_the_last_joint() -> None:
-    arm, rng = robot(), np.random.default_rng(4)
-    q, nothing = rng.normal(size=(30, 3)), np.zeros((30, 3))
-    turned = arm.regressor(q, nothing, nothing)[:, 2, -9:-6]
-    across = np.cross(arm.last_axis(), [1.0, 2.0, 0.0])
-    assert turned @ arm.last_axis() == pytest.approx(np.zeros(30), abs=1e-12)
-    assert np.abs(turned @ across).max() > 1
-
-
 def test_an_arm_without_masses_is_refused() -> None:
     with pytest.raises(InputError, match="needs masses"):
         build_moving_arm(RobotDescription.model_validate({**ROBOT, "links": None}))

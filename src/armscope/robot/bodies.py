@@ -91,3 +91,11 @@ def slopes(arm: MovingArm, motion: tuple[Array, Array, Array], inertial: Array) 
     found[2] = upper + np.swapaxes(np.triu(upper, 1), 1, 2)
     by_q, by_v, by_a = np.einsum("knij,ip,jr->knpr", found, arm.actuation, arm.actuation, optimize=True)
     return by_q, by_v, by_a
+
+
+def last_axis(arm: MovingArm) -> Array:
+    """(3,) about which the last joint turns, in its own frame; zeros where it slides."""
+    joint = arm.model.joints[arm.model.njoints - 1]
+    data = joint.createData()
+    joint.calc(data, pin.neutral(arm.model)[-joint.nq :])
+    return np.asarray(data.S).ravel()[3:]

@@ -78,13 +78,6 @@ class MovingArm:
         parameters[place : place + 10] = pin.Inertia(1.0, at, np.zeros((3, 3))).toDynamicParameters()
         return parameters
 
-    def last_axis(self) -> Array:
-        """(3,) about which the last joint turns, in its own frame; zeros where it slides."""
-        joint = self.model.joints[self.model.njoints - 1]
-        data = joint.createData()
-        joint.calc(data, pin.neutral(self.model)[-joint.nq :])
-        return np.asarray(data.S).ravel()[3:]
-
     def in_tool_frame(self, at: Array) -> Array:
         """(3,) mm, of a point (3,), m, in the last joint's frame: as `tool_mm` states it."""
         tip = self.model.frames[self.model.getFrameId(TIP)]

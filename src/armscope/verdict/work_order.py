@@ -233,9 +233,10 @@ def beside_scatter(task: Task, verdict: Diagnosis) -> Task:
     What follows the angle there may be no more than that.
     """
     loose = {each.location for each in verdict.effects if any(p.name == "scatter" for p in each.parameters)}
-    if task.family != TRANSMISSION or task.place not in loose or task.unsettled:
+    places = [member.partition(" at ")[2] for member in task.members]
+    if task.family != TRANSMISSION or not loose.intersection(places):
         return task
-    return replace(task, unless=f"{SETTLE_SCATTER.format(task.place)} {task.unless}".rstrip())
+    return replace(task, unless=f"{SETTLE_SCATTER.format(enumerated(places))} {task.unless}".rstrip())
 
 
 def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:

@@ -28,7 +28,7 @@ from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
-Law = Callable[[Signals], Array]
+OfSpeed = Callable[[Signals], Array]
 """(N, c) columns at samples of one joint."""
 SIDES = [OWN_NAMES.index("coulomb"), OWN_NAMES.index("blunter")]
 """Numbers of dry friction, and of how sharply it changes sides, among a joint's own columns."""
@@ -84,7 +84,7 @@ class _Joint:
         best = min(cost, key=cost.__getitem__, default=self.sharp)
         return best if cost.get(best, np.inf) < least - INDISTINGUISHABLE_NATS else self.sharp
 
-    def formed(self, law: Law) -> Array:
+    def formed(self, law: OfSpeed) -> Array:
         """(moving, c) rows of what a law makes of samples, beyond what the joint's other columns have of them."""
         j, made = [self.j], []
         for each in self.rows.samples:
@@ -103,7 +103,7 @@ class _Joint:
         return float((self.independent * misfit + columns.shape[1] * np.log(max(self.independent, 1.0))) / 2)
 
 
-def _laws(width: float, slowest: float, fastest: float) -> Iterator[Law]:
+def _laws(width: float, slowest: float, fastest: float) -> Iterator[OfSpeed]:
     """What the library has for friction over a joint's speed."""
     for speed in np.geomspace(slowest, max(fastest / 2, 2 * slowest), 2 * LIBRARY.stribeck_widths):
         yield functools.partial(_fallen, width=width, speed=float(speed))

@@ -12,6 +12,7 @@ from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
 from armscope.motion.library.laws import Law
 from armscope.motion.summary.constants import NAMING
+from armscope.robot.bodies import last_axis
 from armscope.verdict.effects import INTERVAL
 
 
@@ -55,7 +56,7 @@ def not_at_the_flange(selected: SelectedCauses, number: int) -> bool:
     What one joint's torque reads too large in one run looks like that, where no other joint feels it.
     """
     layout, placed = selected.rows.layout, selected.rows.layout.placed[number]
-    names, axis = [name for name, _ in placed.parameters], layout.arm.last_axis()
+    names, axis = [name for name, _ in placed.parameters], last_axis(layout.arm)
     if placed.cause is not catalogue.PAYLOAD or names[:4] != ["mass", "mx", "my", "mz"] or not axis.any():
         return False
     columns = layout.columns[number][:4]
