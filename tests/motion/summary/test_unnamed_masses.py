@@ -60,6 +60,17 @@ def test_a_heavier_link_is_told_from_one_that_is_otherwise_off(monkeypatch: pyte
 
 
 @pytest.mark.long
+def test_what_the_last_link_weighs_does_not_make_all_others_doubtful() -> None:
+    """A share by which all links' weights are off takes the name's place only where another link asks for it, too."""
+    lighter = {"mass_kg": 0.6 * LAST["mass_kg"], "inertia_kg_m2": [0.6 * each for each in LAST["inertia_kg_m2"]]}
+    true = robot(links=[FIRST, SECOND, {**LAST, **lighter}])
+    selected = diagnose_motion(robot(), moved(true, 5), MotionSettings(cutoff=10.0)).selected
+    mass = placed(selected, "link_mass", "link 3")
+    assert selected.best.candidates == {mass}
+    assert odds_of_name(selected, mass) > 3 * INDISTINGUISHABLE_NATS
+
+
+@pytest.mark.long
 def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
     """Beside masses that are held as the other links' it would be: by hundreds of nats."""
     selected = with_the_second(com_mm=[-130, 30, 50], inertia_kg_m2=[0.06, 0.2, 0.16, 0.01, 0.0, 0.02])

@@ -9,7 +9,7 @@ of its links' own does, of which evidence chooses the size as it does of the oth
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -36,12 +36,15 @@ def odds_of_name(selected: SelectedCauses, number: int) -> float:
         number: of a chosen cause that is made of inertial parameters.
 
     Returns:
-        Nats; both sides with the shares of all other links and of the name's own that suit them best.
+        Nats; both sides with the shares of all other links and of the name's own that suit them best. What links weigh
+        is off by as much as suits the name: a share that only the name's own link asks for is that link's alone.
     """
     best, own = selected.best, _own(selected, number)
     freed, apart = _with_own_share(selected, own), not _says_all(selected, number, own)
     kept = tuple(effect for effect in best.chosen if effect.candidate != number)
-    named, unnamed = (_at_best_shares(selected, freed, effects, apart) for effects in (best.chosen, kept))
+    named, sizes = _at_best_shares(selected, freed, best.chosen, apart)
+    weights = [family.name for family in selected.space.families].index("link masses")
+    unnamed, _ = _at_best_shares(selected, freed, kept, apart, (sizes[weights],))
     return named - unnamed
 
 
@@ -89,7 +92,7 @@ def odds_of_weight(selected: SelectedCauses, number: int) -> float:
     """
     freed = _with_own_share(selected, _own(selected, number))
     otherwise = freed.holding(selected.rows.layout.columns[number])
-    heavier, not_so = (_at_best_shares(selected, each, selected.best.chosen, True) for each in (freed, otherwise))
+    heavier, not_so = (_at_best_shares(selected, each, selected.best.chosen, True)[0] for each in (freed, otherwise))
     return heavier - not_so
 
 
@@ -139,8 +142,12 @@ def _with_own_share(selected: SelectedCauses, own: Indices) -> Problem:
 
 
 def _at_best_shares(
-    selected: SelectedCauses, freed: Problem, effects: tuple[SelectedEffect, ...], apart: bool
-) -> float:
+    selected: SelectedCauses,
+    freed: Problem,
+    effects: tuple[SelectedEffect, ...],
+    apart: bool,
+    of_weights: Sequence[int] = (),
+) -> tuple[float, BackgroundSizes]:
     """Log posterior of some effects by the shares that suit them: of all links, of the name's own, of links' weights.
 
     The last is looked for at the best of the first two, and these once more at it. The name's own links have the share
@@ -151,7 +158,7 @@ def _at_best_shares(
     sizes, found = (*selected.best.background, 0), -np.inf
     of_all = range(freed.space.families[masses].sizes)
     shares = list(itertools.product(of_all, range(len(SHARES)))) if apart else [(size, size) for size in of_all]
-    of_weights = range(freed.space.families[weights].sizes)
+    of_weights = of_weights or range(freed.space.families[weights].sizes)
     for _ in range(2):
         before = found
         tried = [(*sizes[:masses], size, *sizes[masses + 1 : -1], own) for size, own in shares]
@@ -160,7 +167,7 @@ def _at_best_shares(
         found, sizes = max((_posterior(selected, freed, effects, each), each) for each in tried)
         if found <= before:
             break
-    return found
+    return found, sizes
 
 
 def _posterior(
