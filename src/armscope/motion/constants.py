@@ -100,6 +100,9 @@ class LibraryRules(Constants):
     least_warming_k: float = constant(
         2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
     )
+    least_running_s: float = constant(
+        10.0, "in which friction may change by itself", "judgement: gears of less have no time to warm", unit="s"
+    )
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
     powers: tuple[float, ...] = constant(
         (1 / 3, 1 / 2, 2 / 3, 3 / 2, 2.0, 3.0),

@@ -14,6 +14,7 @@ from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.clauses_of_changes import spells
+from armscope.motion.library.laws import RUNNING
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches
@@ -83,11 +84,16 @@ def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
     What the arm carried then, or read, no other motion has, nor the same path once more.
     """
     changes = [cause for cause in model.causes if cause.placed.cause in CHANGES]
+    warming = [cause for cause in model.causes if getattr(cause.placed.columns, "kind", "") in RUNNING]
     kept = tuple(cause for cause in model.causes if cause not in changes)
     notes = [
         f"Not in this prediction: {cause.placed} ({spells(cause.placed.scanned)}), which came and went while the "
         "model's own motion was recorded. State what is carried as payload_kg in every row."
         for cause in changes
+    ] + [
+        f"Taken as at the end of the model's own motion: {cause.placed}, which changed while that was recorded. How warm "
+        "the arm is here nobody knows: record temperature_c."
+        for cause in warming
     ]
     return replace(model, causes=kept), notes
 
@@ -110,7 +116,7 @@ def torque_of_rows(model: MotionModel, motions: Motions) -> tuple[Array, list[st
 
 def _at_rows(motions: Motions, says: Callable[[list[Stretch]], list[Array]]) -> tuple[Array, list[str]]:
     kept, time, notices = mended_rows(motions)
-    laid = list(stretches(motions.rows(kept).at_times(time)))
+    laid = [replace(stretch, since=None) for stretch in stretches(motions.rows(kept).at_times(time))]
     torque = np.full(motions.q.shape, np.nan)
     found = says(laid)
     of_kept = np.full((len(kept), motions.n_motors), np.nan)

@@ -96,10 +96,10 @@ VISCOUS_CURVE = Cause(
 TEMPERATURE_FRICTION = Cause(
     "thermal_friction",
     FRICTION,
-    "Friction changes as the gear warms up.",
+    "Friction changes as the gear warms up: with the temperature, or where none is recorded while the arm runs.",
     "Repeat one motion cold and warm.",
     "Let friction follow the temperature, or warm the arm up first.",
-    clause=clauses.at_place("friction of {} changes with temperature"),
+    clause=clauses.warming_clause,
     remedy=remedies_of_laws.with_warmth,
 )
 COUPLED_FRICTION = Cause(

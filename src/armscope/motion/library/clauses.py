@@ -81,6 +81,12 @@ def at_place(words: str) -> Clause:
     return lambda cause, numbers: f"{words.format(cause.location)} ({rms_of(cause)})"
 
 
+def warming_clause(cause: FoundCause, numbers: Numbers) -> str:
+    """Friction that changes as gears warm up, by a temperature or unrecorded."""
+    what = "with temperature" if cause.driver == "temperature" else "while the arm runs"
+    return f"friction of {cause.location} changes {what} ({rms_of(cause)})"
+
+
 def between_joints(words: str) -> Clause:
     """Words with {} for two joints, and the size of the torque."""
 

@@ -92,6 +92,24 @@ def _warm_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, 
     return _warm(m, joints, _side(m, joints, width), middle, constant)
 
 
+def _running_speed(m: Moment, joints: tuple[int, ...], middle: float, constant: float = 0.0) -> Array:
+    return _while_running(m, _speed(m, joints), middle, constant)
+
+
+def _running_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, constant: float = 0.0) -> Array:
+    return _while_running(m, _side(m, joints, width), middle, constant)
+
+
+def _while_running(m: Moment, friction: Array, middle: float, constant: float) -> Array:
+    """Friction times the minutes since the middle of what was recorded; as at its end where nobody knows them.
+
+    An arm in use is warm.
+    """
+    minutes = np.full(len(friction), 2 * middle) if m.signals.running is None else m.signals.running / MINUTE_S
+    changing = (minutes - middle) * friction
+    return np.column_stack([changing, friction]) if constant else changing
+
+
 def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, constant: float) -> Array:
     """With ``constant``, what friction is off at the middle temperature, too: nobody knows at which it was stated."""
     changing = (warmth(m, joints[0]) - middle) * friction
@@ -181,6 +199,9 @@ CLINGING = ("clinging over torques", "clinging over smooth torques")
 READ_LATE = ("delayed torque", "low-passed torque")
 FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", *READ_LATE, *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
+RUNNING = ("speed while running", "side while running")
+"""Laws of how long the arm has run, which is known of the motion alone to which they were fitted."""
+MINUTE_S = 60.0
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
 
@@ -266,6 +287,8 @@ LAWS: dict[str, Callable[..., Array]] = {
     "power of speed": _power,
     "warm speed": _warm_speed,
     "warm side": _warm_side,
+    RUNNING[0]: _running_speed,
+    RUNNING[1]: _running_side,
     "torque": _read,
     "delayed torque": delayed,
     "low-passed torque": low_passed,

@@ -14,7 +14,7 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
 from armscope.motion.library.clauses import ALL_JOINTS
-from armscope.motion.library.laws import Law
+from armscope.motion.library.laws import MINUTE_S, RUNNING, Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
@@ -58,6 +58,8 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
         yield from _friction(at)
         if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
             yield from _warmth(at, seen.temperature[j])
+        elif seen.running_s > LIBRARY.least_running_s:
+            yield from _warming(at, seen.running_s / MINUTE_S / 2)
     yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
     for delay in LIBRARY.delays_s:
         how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
@@ -174,6 +176,21 @@ def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
     dry = (("dry_per_kelvin", f"{at.torque}/K"), ("dry", at.torque))[: 1 + dry_stated]
     yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, dry_stated, variant="dry")
     yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
+
+
+def _warming(at: _Joint, middle: float) -> Iterator[PlacedCause]:
+    """Friction that changes while the arm runs: gears warm up, and nobody recorded how warm they were."""
+    dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
+    viscous = (("per_minute", f"{at.torque} s/({at.unit} min)"), ("viscous", f"{at.torque} s/{at.unit}"))
+    dry = (("dry_per_minute", f"{at.torque}/min"), ("dry", at.torque))
+    for parameters, stated, law, variant in (
+        (viscous, viscous_stated, (RUNNING[0], middle), "viscous while running"),
+        (dry, dry_stated, (RUNNING[1], at.sharp, middle), "dry while running"),
+    ):
+        numbers = (*law, stated)
+        yield at.cause(
+            catalogue.TEMPERATURE_FRICTION, "running time", parameters[: 1 + stated], *numbers, variant=variant
+        )
 
 
 def _drive(at: _Joint) -> PlacedCause:

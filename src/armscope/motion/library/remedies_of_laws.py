@@ -38,11 +38,12 @@ def curve_of_speed(fitted: Fitted) -> str:
 
 
 def with_warmth(fitted: Fitted) -> str:
-    """Friction that follows the temperature, from the middle of those that were recorded."""
-    per_kelvin, *constant = fitted.parameters
-    dry = per_kelvin.name.startswith("dry")
+    """Friction that follows the temperature, or the time that the arm has run, from the middle of what was recorded."""
+    slope, *constant = fitted.parameters
+    dry = slope.name.startswith("dry")
     middle = fitted.of_law[1 if dry else 0]
-    told = " ".join([f"{amount(per_kelvin, sign=True)} × (temperature − {middle:.4g} °C)", *_signed(constant)])
+    since = f"(minutes of running − {middle:.3g})" if slope.name.endswith("minute") else ""
+    told = " ".join([f"{amount(slope, sign=True)} × {since or f'(temperature − {middle:.4g} °C)'}", *_signed(constant)])
     what, follows = ("dry", "sign of the speed") if dry else ("viscous", "speed")
     return f"{fitted.in_general}: {what} friction as stated and {told}, times the {follows}."
 

@@ -186,6 +186,7 @@ class Signals:
             link has no encoder, or one that tells noise. None where no link has one.
         twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
         cut: (K, m) rows that hold some effort that was cut off; or None.
+        running: (N,) s that the arm has run, or None.
     """
 
     run: str
@@ -202,6 +203,7 @@ class Signals:
     shift: tuple[Array, Array, Array] | None = None
     twist: Array | None = None
     cut: NDArray[np.bool_] | None = None
+    running: Array | None = None
 
     @functools.cached_property
     def _paths(self) -> dict[int, BSpline]:
@@ -275,6 +277,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         shift,
         None if twist is None or every_sample else how.low_passed(twist, rows - low),
         stretch.cut_about(rows, READING.cut_reach / how.cutoff),
+        None if stretch.running is None else stretch.running[inside][::stride],
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +21,8 @@ from armscope.verdict.schema import Notice
 class Stretch:
     """Evenly sampled samples of one run, without a gap; arrays as in `Motions`, ``effort`` in N m (N) or A.
 
-    ``cut``: (N, m) where the effort was cut off at the most that its channel shows; None for nowhere.
+    ``cut``: (N, m) where the effort was cut off at the most that its channel shows; None for nowhere. ``since``: s that
+    the arm had run before the first sample, if it ran on from one run of the table to the next; None: not known.
     """
 
     run: str
@@ -33,9 +34,15 @@ class Stretch:
     temperature: Array | None
     link: Array | None = None
     cut: NDArray[np.bool_] | None = None
+    since: float | None = None
 
     def __len__(self) -> int:
         return len(self.time)
+
+    @property
+    def running(self) -> Array | None:
+        """(N,) s that the arm has run, where that is known."""
+        return None if self.since is None else np.asarray(self.since + self.time - self.time[0])
 
     def cut_about(self, rows: Indices, reach: float) -> NDArray[np.bool_]:
         """(K, m) whether the effort was cut off within a time, s, of some samples (K,)."""
@@ -208,9 +215,14 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
 def stretches(motions: Motions) -> Iterator[Stretch]:
     """The runs on even grids, parted where samples are missing; all at one rate, that of the middle one of them."""
     period, pieces = parted(motions)
+    began, so_far = {}, 0.0
+    for run in motions.runs:
+        time = motions.time[motions.run == run]
+        began[run] = so_far - time[0]
+        so_far += float(np.ptp(time))
     for run, rows in pieces:
         if len(rows) > 1:
-            yield _even(motions, rows, run, period)
+            yield replace(_even(motions, rows, run, period), since=float(began[run] + motions.time[rows[0]]))
 
 
 def parted(motions: Motions) -> tuple[float, list[tuple[str, Indices]]]:

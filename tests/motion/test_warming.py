@@ -1,0 +1,56 @@
+"""Friction that changes while the arm runs, with no temperature recorded: told as that, and as no curve of the speed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from armscope.core.types import Array
+from armscope.motion.export import write_motion
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.predicting import predict_motions
+from armscope.recordings.motions import as_motions
+from armscope.verdict.effects import INTERVAL
+from tests.motion.moving import VISCOUS, Plant, robot, table
+
+SECONDS, PER_MINUTE = 10.0, -1.5
+SETTINGS = MotionSettings(cutoff=10.0)
+
+
+def warming(joint: int, slower: float = 1.0) -> Plant:
+    """Viscous friction of a joint (from 0) that falls from one run to the next, which each go on where one ended."""
+    ran = [0.0]
+
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        minutes = (ran[0] + np.arange(len(q)) / 200.0) / 60
+        ran[0] += SECONDS
+        on_top = np.zeros_like(q)
+        on_top[:, joint] = slower * PER_MINUTE * minutes * dq[:, joint]
+        return on_top
+
+    return plant
+
+
+@pytest.mark.parametrize("stated", [pytest.param(False, marks=pytest.mark.long), True])
+def test_friction_that_falls_while_the_arm_runs_is_told_with_its_slope(stated: bool, tmp_path: Path) -> None:
+    """What robot.yaml states of it, it has in the middle of the recording or not: that is a number of its own."""
+    drives = {"drives": [{"viscous_nm_s_rad": float(each)} for each in VISCOUS]} if stated else {}
+    rows = table(robot(), 3, warming(1), runs=2, seconds=SECONDS)
+    found = diagnose_motion(robot(**drives), as_motions(rows), SETTINGS)
+    (effect,) = found.verdict.effects
+    assert (effect.effect, effect.location, effect.driver) == ("thermal_friction", "joint 2", "running time")
+    slope = effect.parameters[0]
+    assert slope.name == "per_minute"
+    assert slope.value == pytest.approx(PER_MINUTE, abs=1.5 * INTERVAL * slope.stderr)
+    assert slope.stderr < 0.1 * abs(PER_MINUTE)
+    write_motion(found, tmp_path)
+    rows.drop(columns=[name for name in rows if name.startswith("tau")]).to_csv(tmp_path / "other.csv", index=False)
+    _, notes = predict_motions(tmp_path / "model.yaml", tmp_path / "other.csv")
+    assert any("as at the end of the model's own motion: thermal friction at joint 2" in note for note in notes)
+
+
+def test_friction_that_stays_says_nothing() -> None:
+    found = diagnose_motion(robot(), as_motions(table(robot(), 4, seconds=SECONDS)), SETTINGS)
+    assert found.verdict.effects == ()
