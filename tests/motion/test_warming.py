@@ -1,4 +1,4 @@
-"""Friction that changes while the arm runs, with no temperature recorded: told as that, and as no curve of the speed."""
+"""Friction that changes while the arm runs, with no temperature recorded: told as that, no curve of the speed."""
 
 from __future__ import annotations
 

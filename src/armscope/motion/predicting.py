@@ -91,7 +91,7 @@ def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
         "model's own motion was recorded. State what is carried as payload_kg in every row."
         for cause in changes
     ] + [
-        f"Taken as at the end of the model's own motion: {cause.placed}, which changed while that was recorded. How warm "
+        f"Taken as at the end of the model's own motion: {cause.placed}, which changed meanwhile. How warm "
         "the arm is here nobody knows: record temperature_c."
         for cause in warming
     ]
