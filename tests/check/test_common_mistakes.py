@@ -6,8 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from armscope.check.constants import TRIALS
 from armscope.check.report import check
 from armscope.robot.arm import build_arm
+from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 from tests.check.test_check import problems
 
 
@@ -94,6 +96,25 @@ def test_a_mistake_is_named_by_what_it_is(mistake, words, arm, sound):
     found = problems(mistake(sound), arm)
     assert len(found) == 1
     assert words in found[0]
+
+
+def test_a_joint_near_a_short_tool_that_turns_the_other_way_is_named():
+    """It moves the tool by centimetres alone: base and tool explain all but 4 % of the points' spread."""
+    rng = np.random.default_rng(1)
+    arm = ur_like()
+    real, angles = planted(arm, rng), poses(rng, 80, 6)
+    table = measured(real, angles, far_away(rng), {"": [0.03, 0.02, 0.1]}, 5e-5, rng)
+    assert problems(table, arm) == []
+    found = check(_flip(table, 5), arm)
+    assert found.consistency.rms < TRIALS.fits * found.consistency.spread
+    (problem,) = problems(_flip(table, 5), arm)
+    assert "joint 6 turns the other way" in problem
+
+
+def test_a_zero_that_is_degrees_off_is_not_called_right(arm, sound):
+    (hint,) = check(replace(_off(sound, 2, np.radians(2)), orientation=None), arm).suspicions
+    assert hint.weight == "hint"
+    assert "Is a joint's zero degrees off" in hint.text()
 
 
 def test_a_row_that_fits_nobody_is_told_with_its_id_and_by_how_much(arm, sound):

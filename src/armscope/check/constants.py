@@ -40,6 +40,11 @@ class TrialRules(Constants):
         "share of the points' spread that base and tool leave at most where a table fits an arm",
         "judgement: several times what arms of usual tolerances leave",
     )
+    doubtful: float = constant(
+        0.015,
+        "share of the points' spread that base and tool leave beyond which mistakes are tried and the misfit is told",
+        "judgement: a degree at every joint leaves as much",
+    )
     clearly_better: float = constant(
         0.3,
         "share of the misfit, or of orientations' scatter, that another reading must at most leave",

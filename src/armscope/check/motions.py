@@ -18,6 +18,7 @@ from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import channels, doubts_about, refuse_other_joints, refuse_unknown_gains, too_short
+from armscope.motion.samples.spikes import without_spikes
 from armscope.motion.samples.timing import gaps, mended_rows
 from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
@@ -59,9 +60,10 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     if arm is not None:
         refuse_other_joints(arm, motions)
         refuse_unknown_gains(arm, motions)
+    motions, alone = without_spikes(motions)
     motions, turns = counted_on(motions)
     kept, time, notices = mended_rows(motions)
-    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*turns, *notices, *doubts_about(motions)]]
+    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*alone, *turns, *notices, *doubts_about(motions)]]
     even = motions.rows(kept).at_times(time)
     told += [Suspicion("hint", notice.text.rstrip(".")) for notice in gaps(even)]
     broken = list(_leaps(motions))

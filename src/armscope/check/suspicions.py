@@ -68,11 +68,13 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     spread = max(_spread(some), _predicted_spread(rows, state))
     found: list[Suspicion] = []
     turned: list[Suspicion] = []
-    if _share_left(rows, state) > TRIALS.fits:
+    share = _share_left(rows, state)
+    if share > TRIALS.fits:
         found += _moved_tools(arm, replace(some, orientation=None), explains=True) or _unexplained(
             arm, recordings, misfit
         )
     else:
+        found += _doubtful(arm, recordings, misfit) if share > TRIALS.doubtful else []
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
         found += leading_joints(arm, some, state) + rows_far_off(arm, recordings, _placed_by_most)
         found += payload_at_the_flange(arm, recordings, state)
@@ -101,6 +103,19 @@ def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspic
     mistake = explanation(arm, recordings)
     other = better_arm(arm, _spread_evenly(recordings), misfit) if mistake.kind == WRONG_ROBOT else []
     return [replace(mistake, cure=f"I{other[0].text()[1:]}", kind=ANOTHER_MODEL)] if other else [mistake]
+
+
+def _doubtful(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion]:
+    """The mistake whose undoing explains points that the arm explains badly: of a joint near the tool, which moves little.
+
+    A joint that turns a short tool the other way leaves centimetres, as a zero some degrees off does.
+    """
+    mistake = explanation(arm, recordings)
+    if mistake.kind != WRONG_ROBOT:
+        return [mistake]
+    statement = f"base and tool leave {1e3 * misfit:.3g} mm RMS, more than arms that were built to their drawing"
+    cure = "Is a joint's zero degrees off, a joint's column or sign another's, or is it another arm?"
+    return [Suspicion("hint", statement, cure)]
 
 
 def _spread_evenly(recordings: Recordings) -> Recordings:

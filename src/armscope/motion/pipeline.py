@@ -28,6 +28,7 @@ from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_lin
 from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.spikes import without_spikes
 from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
@@ -150,6 +151,7 @@ def diagnose_motion(
         InputError: the samples don't fit the arm or hold nothing to go by.
     """
     settings = settings or MotionSettings()
+    motions, alone = without_spikes(motions)
     motions, turns = counted_on(motions)
     motions, standing = runs_in_motion(motions)
     for run in settings.held_out:
@@ -157,7 +159,7 @@ def diagnose_motion(
             rule = f"{motions.source} has no such run in motion"
             raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
     progress("laying samples on an even grid", 0.0)
-    notices = [Notice("table", note) for note in motions.notes] + turns + standing + check_motions(arm, motions)
+    notices = [Notice("table", note) for note in motions.notes] + alone + turns + standing + check_motions(arm, motions)
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)

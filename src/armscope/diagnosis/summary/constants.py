@@ -17,6 +17,11 @@ class TellingRules(Constants):
         "times the stated noise beyond which a residual is more than the noise",
         "judgement: statements are rounded",
     )
+    coarsest_noise: float = constant(
+        5e-3,
+        "of the arm's reach, per axis, beyond which nothing that measures arms is as coarse",
+        "judgement: a camera that sees a board is off by 1 to 3 mm at a reach of a metre",
+    )
     same_size: float = constant(
         0.05,
         "of an effect's size by which parts of the rows may differ and still give the same",

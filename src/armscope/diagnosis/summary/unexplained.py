@@ -152,6 +152,9 @@ def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> U
         if known and state.fit.noise > TELLING.noise_excess * known and _significant(state, known, 3 * repeats):
             extra = float(np.sqrt(state.fit.noise**2 - known**2))
             return Unexplained(True, None, None, extra, f"residual above {what}, that follows nothing in the table")
+    if not state.noise.stated_mm and state.fit.noise > TELLING.coarsest_noise * 1e3 * state.fit.model.arm.reach:
+        words = "residual far above the noise of any instrument, that follows nothing in the table"
+        return Unexplained(True, None, None, state.fit.noise, words)
     return Unexplained(False)
 
 

@@ -201,6 +201,21 @@ class ReadingRules(Constants):
     unread_s: float = constant(
         0.5, "for which a channel repeats one value that was not read", "judgement: fifty samples at 100 Hz", unit="s"
     )
+    spike: int = constant(3, "in a row that may stand alone", "judgement: a frame that was lost", unit="samples")
+    usual_off: float = constant(
+        99.0, "of a channel's readings that are as near to their neighbours as is usual", "judgement: spikes are rare"
+    )
+    far_off: float = constant(
+        12.0,
+        "times farther from its neighbours than is usual that a reading must be to stand alone",
+        "judgement: four times what noise with long tails does",
+    )
+    back: float = constant(
+        0.15, "of how far it is off, within which a channel is back after it", "judgement: a blow rings on"
+    )
+    least_off: float = constant(
+        2e-3, "of a channel's range, below which nothing is far off", "judgement: of a channel without noise"
+    )
     part_turn: float = constant(
         np.pi / 2,
         "by which a step may differ from a whole turn, or from standing still, where an angle is recorded within one",
