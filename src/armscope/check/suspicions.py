@@ -106,7 +106,7 @@ def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspic
 
 
 def _doubtful(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion]:
-    """The mistake whose undoing explains points that the arm explains badly: of a joint near the tool, which moves little.
+    """The mistake whose undoing explains points that the arm explains badly: of a joint near the tool, say.
 
     A joint that turns a short tool the other way leaves centimetres, as a zero some degrees off does.
     """

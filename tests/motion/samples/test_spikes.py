@@ -61,7 +61,7 @@ def test_a_step_and_a_blow_that_rings_on_are_the_motions_own() -> None:
 
 @pytest.mark.parametrize(("column", "value"), [("q", 1.5), pytest.param("effort", 5000.0, marks=pytest.mark.long)])
 def test_one_lost_reading_changes_no_verdict(column: str, value: float) -> None:
-    """It outweighed the motion: "the torque is met to 76 % instead of 76 %", and check said that nothing looks wrong."""
+    """It outweighed the motion: "met to 76 % instead of 76 %", and check said that nothing looks wrong."""
     how = MotionSettings(cutoff=10.0)
     table = with_reading(column, 1, value)
     verdict, sound = diagnose_motion(robot(), table, how).verdict, diagnose_motion(robot(), SOUND, how).verdict

@@ -8,7 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.model_space import BackgroundFamily, Candidate, Exchange, ModelSpace, ToleranceFamily
+from armscope.inference.model_space import (
+    BackgroundFamily,
+    BackgroundSizes,
+    Candidate,
+    Exchange,
+    ModelSpace,
+    ToleranceFamily,
+)
 from armscope.motion.constants import PRIOR
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
@@ -20,6 +27,14 @@ from armscope.motion.library.linkage import BETWEEN_LINKS
 
 OF_MASSES, OF_REVERSALS = frozenset({"masses", "link masses"}), frozenset({"reversals"})
 """Names of the families by which masses are off without a name, and by which friction changes sides."""
+NEAR_THE_STATED = OF_MASSES | {"gains"}
+"""Those that are held near what is stated; the others are every joint's own."""
+
+
+def of_joints(space: ModelSpace, background: BackgroundSizes) -> BackgroundSizes:
+    """A background without what is held near the stated: friction and rotors, and how friction changes sides."""
+    sizes = zip(space.families, background, strict=True)
+    return tuple(0 if family.name in NEAR_THE_STATED else size for family, size in sizes)
 
 
 def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozenset[int] = frozenset()) -> ModelSpace:

@@ -17,6 +17,7 @@ from armscope.motion.constants import NOISE
 from armscope.motion.fitting.gains import gain_of
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
+from armscope.motion.fitting.space import of_joints
 from armscope.motion.fitting.weights import noise_of, weighed
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes import gate_of
@@ -141,7 +142,7 @@ def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
     made = []
     for fold in parts:
         stated = fold.rows.nominal[fold.which]
-        friction = Search.on(fold.problem).perfect()
+        friction = evaluate(fold.problem, (), _of_joints(fold.problem, fold.found), fold.found.noise)
         background, model = (stated + _modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
         made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
     return tuple(made)
@@ -210,7 +211,7 @@ def waterfall(
     states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
     steps = []
     for label, members, masses in states:
-        background = best.background if masses else selected.space.no_background
+        background = best.background if masses else _of_joints(selected.problem, best)
         chosen = tuple(by_candidate[c] for c in members)
 
         whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
@@ -220,6 +221,11 @@ def waterfall(
             Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
         )
     return tuple(steps)
+
+
+def _of_joints(problem: Problem, found: Hypothesis) -> BackgroundSizes:
+    """Friction and rotors with all that every joint has: how its friction changes sides is no error of masses."""
+    return of_joints(problem.space, found.background)
 
 
 def _held_near(selected: SelectedCauses) -> str:

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from armscope.inference.constants import PRIORS
+from armscope.inference.edits import by_posterior
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -56,11 +57,14 @@ def rather_all_links(selected: SelectedCauses, of_all: BackgroundSizes) -> Selec
 def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
     """The selection with names for links out of those that are off without one.
 
+    Beside one name, the others are off by as much as they themselves ask for, which may be not at all: one link that
+    stands out says nothing of them. Several do.
+
     Args:
         selected: a selection, all of whose names can stand.
 
     Returns:
-        The same fit but for the width of these numbers' priors.
+        It, or the selection itself where no link's weight is told.
     """
     search, best, layout = Search.on(selected.problem), selected.best, selected.rows.layout
     named = []
@@ -72,7 +76,13 @@ def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
         if worth and odds_of_weight(selected, number) >= INDISTINGUISHABLE_NATS:
             size = selected.problem.nearest_size(abs(float(best.means(columns)[0])))
             named.append(SelectedEffect(number, size, nested=True))
-    return replace(selected, best=search.evaluated((*best.chosen, *named), best)) if named else selected
+    if not named:
+        return selected
+    weights = [family.name for family in selected.space.families].index("link masses")
+    beside = search.evaluated((*best.chosen, *named), best)
+    smaller = range(best.background[weights] if len(named) == 1 else 0)
+    others = [search.with_background(beside, weights, size) for size in smaller]
+    return replace(selected, best=max([beside, *others], key=by_posterior))
 
 
 def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[SelectedCauses, Sureness]:

@@ -104,6 +104,10 @@ def _impossible(selected: SelectedCauses) -> Iterator[int]:
             least[:] = -stated[placed.of_background]
         elif placed.cause is catalogue.COUPLED_FRICTION:
             least[:] = 0.0
+        elif (
+            placed.cause is catalogue.TEMPERATURE_FRICTION and len(columns) > 1
+        ):  # beside its slope what is stated is off
+            least[1] = -stated[placed.joints[0], 1 if placed.parameters[1][0] == "dry" else 2]
         elif placed.cause in (catalogue.STRIBECK, catalogue.VISCOUS_CURVE):
             least[0] = 0.0
         elif is_of_a_gain(placed.columns) and not 1 / most < 1 + selected.coefficients[columns[0]] < most:
