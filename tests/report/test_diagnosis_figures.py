@@ -273,3 +273,9 @@ def test_a_curve_is_drawn_where_its_numbers_are():
     top = line[np.argmin(line[:, 1]), 0]
     peak = np.interp(0.8, (-np.pi, np.pi), (line[0, 0], line[-1, 0]))
     assert top == pytest.approx(peak, abs=3)
+
+
+def test_what_partly_cancels_another_cause_is_no_grey_joint():
+    """ "Grey: none was found there", said the picture of a joint whose zero was a step of the work order."""
+    case = verdicts.case(effects=(verdicts.unknown_curve("joint 4", share=-0.16),))
+    assert location_shares(case.verdict) == {"joint 4": 0.16}

@@ -99,10 +99,10 @@ def test_the_work_order_has_a_line_per_cause_with_its_cure_and_the_error_after_i
     order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     main = [cause for cause in found.verdict.effects if not cause.minor]
     assert order.count("Confirm first:") == len(main) <= IN_FULL
-    assert f"{error_in_words(found.entered[0])} after this" in order
+    assert f"{error_in_words(found.entered[0].whole)} after this" in order
     for number, (cause, error) in enumerate(zip(main, found.entered[2:], strict=False), start=2):
         assert cause.cure.replace("`", "") in order
-        assert f"{error_in_words(error)} after 1 to {number}" in order
+        assert f"{error_in_words(error.whole)} after 1 to {number}" in order
     assert all(f"<td>{each.joint}</td>" in order for each in found.verdict.background)
     assert error_in_words(float("nan")) == "–"
 
@@ -125,9 +125,9 @@ def test_errors_to_expect_hold_for_the_numbers_that_are_entered(found: MotionDia
         missed.append(moving * (fold.rows.torque[fold.which] - said))
         torque.append(moving * fold.rows.torque[fold.which])
     by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
-    assert found.entered[2] == pytest.approx(by_hand, rel=1e-6), cause.title
-    assert found.entered[0] > 2 * found.entered[2]
-    assert found.entered[2] < 3 * found.verdict.held_out.model
+    assert found.entered[2].whole == pytest.approx(by_hand, rel=1e-6), cause.title
+    assert found.entered[0].whole > 2 * found.entered[2].whole
+    assert found.entered[2].whole < 3 * found.verdict.held_out.model
 
 
 def many_tasks(found: MotionDiagnosis, close: Alternative) -> MotionDiagnosis:
@@ -208,13 +208,13 @@ def test_masses_are_told_to_be_taken_along_where_they_matter(
     assert fitted_along_matters(with_masses_at(0.014))
     assert not fitted_along_matters(with_masses_at(0.1601))
     told = motion_work_order(with_masses_at(0.014))
-    assert told["apart"] == error_in_words(found.entered[1]), "a step of its own, before the causes"
+    assert told["apart"] == error_in_words(found.entered[1].whole), "a step of its own, before the causes"
     assert "corrected.urdf" not in told["tasks"][0].cure
     write_motion_report(with_masses_at(0.014).found, "motions.csv", tmp_path)
     order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     step = f"they were fitted along. <b>Expect:</b> {told['apart']}"
     assert step in order
-    assert f"{error_in_words(found.entered[2])} after 1 to 3, masses included" in order
+    assert f"{error_in_words(found.entered[2].whole)} after 1 to 3, masses included" in order
     assert not motion_work_order(with_masses_at(0.1601))["apart"]
     monkeypatch.setattr(motion_work, "_is_in_bodies", lambda cause: True)
     with_a_body = motion_work_order(with_masses_at(0.014))

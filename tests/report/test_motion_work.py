@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.summary.holding_out import Entered
 from armscope.report.pages.motion import write_motion_report
-from armscope.report.sections.motion_work import error_in_words
+from armscope.report.sections.motion_work import error_in_words, where_it_shows
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 
@@ -23,4 +24,12 @@ def test_who_has_stated_all_drives_is_not_sent_to_a_table_of_dashes(tmp_path: Pa
     order = (tmp_path / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
     assert "of the table below" not in order
     assert "<h2>Friction and rotors</h2>" not in order
-    assert f"{error_in_words(found.entered[2])} after this. Measured" in order
+    assert f"{error_in_words(found.entered[2].whole)} after this. Measured" in order
+
+
+def test_a_step_that_puts_a_wrist_right_says_so_though_the_whole_arm_hardly_shows_it() -> None:
+    """Of 26 % of all torque, 25 % were told to be left by the cause with the largest share."""
+    before, after = Entered(0.26, (0.27, 0.22)), Entered(0.25, (0.265, 0.016))
+    assert where_it_shows(before, after) == " (joint 2 alone: 22 % before, 1.6 % then)"
+    assert where_it_shows(before, Entered(0.02, (0.01, 0.02))) == ""
+    assert where_it_shows(before, before) == ""

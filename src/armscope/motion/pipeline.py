@@ -34,6 +34,7 @@ from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
+    Entered,
     Fold,
     HeldOutTorque,
     as_entered,
@@ -108,7 +109,7 @@ class MotionDiagnosis:
     test: MotionRows | None
     held: tuple[HeldOutTorque, ...]
     how: Preparation
-    entered: tuple[float, ...] = ()
+    entered: tuple[Entered, ...] = ()
     twists: tuple[JudgedTwist, ...] = ()
 
     @functools.cached_property
@@ -239,7 +240,7 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 def _judged(
     selected: SelectedCauses, sure: Sureness, test: MotionRows | None, settings: MotionSettings
-) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[float, ...]]:
+) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[Entered, ...]]:
     if test is None:
         parts = folds(selected)
         what = held_out_in_words(parts)

@@ -236,7 +236,15 @@ def _held_near(selected: SelectedCauses) -> str:
     return f"{' and '.join(['masses'] * masses + ['torque constants'] * gains)} near the stated"
 
 
-def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[float, ...]:
+@dataclass(frozen=True)
+class Entered:
+    """An error on held-out motion once some numbers are entered: of all torque, and of each joint's own."""
+
+    whole: float
+    by_joint: tuple[float, ...]
+
+
+def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[Entered, ...]:
     """Errors when the whole model's numbers are entered into a simulator one after the other, nothing fitted again.
 
     No simulator knows how friction changes sides here, nor takes friction below zero: both are left out.
@@ -269,7 +277,12 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
             rows = replace(fold.rows, gain=gain_of(layout, entered))
             said = rows.nominal[fold.which] + rows.modelled(entered, fold.which)
             found.append(_missed(fold.rows, fold.which, torque - said))
-    return tuple(relative(np.concatenate(found), np.concatenate(torques)) for found in missed)
+    torque = np.concatenate(torques)
+    return tuple(_entered(np.concatenate(found), torque) for found in missed)
+
+
+def _entered(left: Array, torque: Array) -> Entered:
+    return Entered(relative(left, torque), tuple(map(relative, left.T, torque.T)))
 
 
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:

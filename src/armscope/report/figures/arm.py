@@ -17,10 +17,13 @@ def arm_figure(subject: Subject) -> Iterator[Drawn]:
 
 
 def location_shares(verdict: Verdict) -> dict[str, float]:
-    """Share of the mismatch by location: of all effects found, and of what is left unexplained at a known place."""
+    """Share of the mismatch by location: of all effects found, and of what is left unexplained at a known place.
+
+    What partly cancels other effects has a share below zero, and is there as much as if it did not.
+    """
     shares: dict[str, float] = {}
     for effect in verdict.effects:
-        shares[effect.location] = shares.get(effect.location, 0.0) + min(max(effect.share, 0.0), 1.0)
+        shares[effect.location] = shares.get(effect.location, 0.0) + min(abs(effect.share), 1.0)
     left = verdict.unexplained
     told = any(effect.nameless and effect.location == left.location for effect in verdict.effects)
     if left.present and left.location and not told and verdict.residual_before_mm > 0:

@@ -36,12 +36,17 @@ class Place:
     @property
     def width(self) -> float:
         """Of its bar, per cent."""
-        return 100 * min(1.0, max(0.0, self.share))
+        return 100 * min(1.0, abs(self.share))
+
+    @property
+    def against(self) -> bool:
+        """Whether it partly cancels others."""
+        return self.share < -LEAST_AGAINST
 
 
 def _context(subject: Subject) -> dict[str, Any]:
     ranking = _ranking(subject.verdict)
-    return {"ranking": ranking, "against": any(place.share < -LEAST_AGAINST for place in ranking), "arm": subject.arm}
+    return {"ranking": ranking, "against": any(place.against for place in ranking), "arm": subject.arm}
 
 
 def _ranking(verdict: Diagnosis) -> list[Place]:

@@ -15,6 +15,7 @@ from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
+from armscope.motion.summary.holding_out import Entered
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
@@ -22,13 +23,18 @@ from armscope.report.sections.motion import friction_table
 from armscope.report.sections.motion_cards import motion_card
 from armscope.verdict.wording import capitalised
 
+MOST_AT_A_JOINT, LEAST_TOLD = 3.0, 0.01
+"""By how many times more a step betters one joint's torque than all, and at least by how much, for that to be told."""
 IN_FULL = 3
 """Causes whose steps are told in full, as many as the headline tells; the others stand in a line each: one page."""
 
 
 @dataclass(frozen=True)
 class MotionTask:
-    """One cause's line: who does what, what to do, and the error of the torque once it and all before it are done."""
+    """One cause's line: who does what, what to do, and the error of the torque once it and all before it are done.
+
+    ``shows`` is where that shows, if it hardly does in all torque together.
+    """
 
     said: str
     doubt: str
@@ -36,6 +42,7 @@ class MotionTask:
     confirm: str
     cure: str
     expected: str
+    shows: str
 
 
 def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
@@ -46,12 +53,14 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     """
     verdict = subject.verdict
     background, with_masses, *after = subject.found.entered
-    expected_after = {cause.title: error for cause, error in zip(verdict.effects, after, strict=True)}
+    expected_after = {cause.title: step.whole for cause, step in zip(verdict.effects, after, strict=True)}
+    steps = zip(verdict.effects, (with_masses, *after), after, strict=False)
+    most_at = {cause.title: where_it_shows(before, step) for cause, before, step in steps}
     along = fitted_along_matters(subject)
     masses = along and subject.masses_fitted
     main = [each for each in verdict.effects if not each.minor]
     minor = [each for each in verdict.effects if each.minor]
-    told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses))
+    told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses.whole))
     apart = along and not any(_is_in_bodies(each) for each in told)
     tasks = []
     for number, cause in enumerate(told, start=1):
@@ -60,7 +69,7 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         expected = error_in_words(expected_after[cause.title])
         too = _along_too(subject, cause) if along and not apart and number == 1 else ""
         cure = f"{card.cure} {too}".rstrip()
-        tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected))
+        tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected, most_at[cause.title]))
     held_out = verdict.held_out
     to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
     return {
@@ -71,15 +80,35 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
         "masses": masses,
         "along": along_in_words(subject) if along else "",
-        "apart": error_in_words(with_masses) if apart else "",
+        "apart": error_in_words(with_masses.whole) if apart else "",
         "urdf": URDF,
         "gains": capitalised(subject.gains_fitted) if along else "",
         "minor": [cause.title for cause in minor if cause not in told],
         "now": error_in_words(held_out.stated),
-        "background": error_in_words(background),
+        "background": error_in_words(background.whole),
         "model": error_in_words(held_out.model),
         **friction_table(subject),
     }
+
+
+def where_it_shows(before: Entered, after: Entered) -> str:
+    """The joint whose torque a step betters most, where that is far more than it does to all torque together.
+
+    Large joints hold most of the torque: what puts a wrist right hardly shows in the error of the whole arm.
+
+    Args:
+        before: errors without the step.
+        after: errors with it.
+
+    Returns:
+        Words in brackets, with a space before; nothing where the whole says it.
+    """
+    gains = [one - other for one, other in zip(before.by_joint, after.by_joint, strict=True)]
+    joint = int(np.argmax(gains))
+    if gains[joint] < MOST_AT_A_JOINT * max(before.whole - after.whole, LEAST_TOLD):
+        return ""
+    then, now = (error_in_words(each.by_joint[joint]) for each in (after, before))
+    return f" (joint {joint + 1} alone: {now} before, {then} then)"
 
 
 def fitted_along_matters(subject: MotionSubject) -> bool:
