@@ -172,7 +172,8 @@ BEYOND_THE_RULE = (
 )
 LOAD_NOT_KNOWN = (
     " No masses are stated, so this load cannot be calculated from the robot's file: the mass moments were fitted, "
-    "too, and armscope compensate has them."
+    "too. Leave it for last: measure and diagnose again after the other steps, and take commands from armscope "
+    "compensate, which has these moments."
 )
 NO_NUMBER = "These recordings do not determine its number: let armscope compensate compute the commands."
 """Without masses, what gives way is known by the product with them, which the model file has."""
