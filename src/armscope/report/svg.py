@@ -181,7 +181,8 @@ class Panel:
             ((px, _),) = self.at(np.array([tick]), np.array([self.y[0]]))
             self.drawing.line(np.array([[px, self.top], [px, low]]), LINE, 0.8, -2)
             self.drawing.text((px, low + 11), number(tick), size=11, anchor="middle", fill=QUIET)
-        for tick in ticks(*self.y, self._room(self.high, 33)):
+        y_numbers = ticks(*self.y, self._room(self.high, 33))
+        for tick in y_numbers:
             ((_, py),) = self.at(np.array([self.x[0]]), np.array([tick]))
             self.drawing.line(np.array([[self.left, py], [end, py]]), LINE, 0.8, -2)
             if y_ticks:
@@ -189,7 +190,8 @@ class Panel:
         self.drawing.text((self.left + self.wide / 2, self.top - 9), title, size=12, anchor="middle")
         self.drawing.text((self.left + self.wide / 2, low + 27), x_label, size=12, anchor="middle")
         if y_label:
-            middle = (self.left - 42, self.top + self.high / 2)
+            longest = max((len(number(tick)) for tick in y_numbers if y_ticks), default=0)
+            middle = (self.left - max(42.0, 14 + 6.7 * longest), self.top + self.high / 2)
             self.drawing.text(middle, y_label, size=12, anchor="middle", turn=-90)
 
     @staticmethod
