@@ -51,6 +51,12 @@ def test_friction_that_falls_while_the_arm_runs_is_told_with_its_slope(stated: b
     assert any("as at the end of the model's own motion: thermal friction at joint 2" in note for note in notes)
 
 
+def test_one_run_alone_does_not_tell_time_from_where_it_went() -> None:
+    """Told by the first three fifths of a motion, it went on as it had: 2 % of the rest was missed, not 0.4 %."""
+    found = diagnose_motion(robot(), as_motions(table(robot(), 3, warming(1), runs=1, seconds=SECONDS)), SETTINGS)
+    assert "running time" not in {cause.driver for cause in found.selected.rows.layout.placed}
+
+
 def test_friction_that_stays_says_nothing() -> None:
     found = diagnose_motion(robot(), as_motions(table(robot(), 4, seconds=SECONDS)), SETTINGS)
     assert found.verdict.effects == ()

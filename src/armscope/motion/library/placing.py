@@ -58,7 +58,7 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
         yield from _friction(at)
         if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
             yield from _warmth(at, seen.temperature[j])
-        elif seen.running_s > LIBRARY.least_running_s:
+        elif len(seen.runs) > 1 and seen.running_s > LIBRARY.least_running_s:
             yield from _warming(at, seen.running_s / MINUTE_S / 2)
     yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
     for delay in LIBRARY.delays_s:
@@ -179,7 +179,10 @@ def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
 
 
 def _warming(at: _Joint, middle: float) -> Iterator[PlacedCause]:
-    """Friction that changes while the arm runs: gears warm up, and nobody recorded how warm they were."""
+    """Friction that changes while the arm runs: gears warm up, and nobody recorded how warm they were.
+
+    Not within one run: what its first part tells of time, its last part is the farther from the longer it goes on.
+    """
     dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
     viscous = (("per_minute", f"{at.torque} s/({at.unit} min)"), ("viscous", f"{at.torque} s/{at.unit}"))
     dry = (("dry_per_minute", f"{at.torque}/min"), ("dry", at.torque))
