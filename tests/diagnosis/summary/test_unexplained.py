@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.unexplained import load_in_question
 from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
@@ -61,6 +62,17 @@ def test_where_repeats_scatter_as_all_does_nothing_is_left() -> None:
     found = diagnose(arm_named("six-axis"), twice(0.0), QUICK)
     assert found.answer == "nothing missing"
     assert not found.unexplained.present
+
+
+@pytest.mark.parametrize(("noise_mm", "said"), [(15.0, "cannot tell"), (1.0, "nothing missing")])
+def test_what_no_instrument_is_as_coarse_as_is_no_noise(noise_mm: float, said: str) -> None:
+    """ "28.9 mm per axis, which is noise" was told of an arm whose joint 6 was counted the other way."""
+    arm = arm_named("six-axis")
+    assert 1.0 < TELLING.coarsest_noise * 1e3 * arm.reach < 15.0
+    once = replace(one_run(arm, 80, 4), time=None, temperature=None)
+    found = diagnose(arm, recorded(arm, once, {}, noise_mm, 5), QUICK)
+    assert found.answer == said
+    assert ("far above the noise of any instrument" in found.headline) == (said == "cannot tell")
 
 
 @pytest.mark.parametrize(("variant", "asked"), [(UNKNOWN_MASSES, True), ("", False)])
