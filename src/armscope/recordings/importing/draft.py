@@ -17,6 +17,7 @@ from armscope.recordings.importing.first_table import ForeignTable, first_table
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
+from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
 
 FEWEST_MOTORS = 2
@@ -271,6 +272,9 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
     for what, (pattern, line) in singles.items():
         match = next((column for name, column in small.items() if re.fullmatch(pattern, name)), None)
         if what == "target" and not of_one_point:
+            continue
+        if what == "target" and match is not None and number_the_rows([row[match] for row in table.cells]):
+            yield f"  # no target: {_quoted(_printable(table.names[match]))}, which differs from row to row"
             continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
