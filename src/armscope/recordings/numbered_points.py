@@ -24,6 +24,6 @@ def in_words(names: Sequence[str] | Array) -> str:
 
 
 CURE = (
-    "Each gets a tool offset of its own - is it the point's number? Then leave the column out of the table, or `target` "
-    "out of mapping.yaml."
+    "Each gets a tool offset of its own - is it the point's number? Then leave the column out of the table, or "
+    "`target` out of mapping.yaml."
 )

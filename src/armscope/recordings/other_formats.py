@@ -19,7 +19,10 @@ def by_hand(names: Sequence[str], file: str) -> str:
     """What to do about a file of whose columns none looks like an angle or a point."""
     if {"a", "alpha", "d"} <= {name.strip().lower() for name in names}:
         return f"D-H rows? `armscope init - -o robot.yaml < {file}` reads them."
-    return "Write the mapping by hand: docs/bring-your-recordings.md; of a program, write a table."
+    return (
+        "Write the mapping by hand: docs/bring-your-recordings.md shows one of points and one of motions. If this is a "
+        "robot's program, write its poses as a table first."
+    )
 
 
 def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:

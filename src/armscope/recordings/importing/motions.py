@@ -13,12 +13,13 @@ from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
 from armscope.recordings.importing.checked_values import required, scalar
-from armscope.recordings.importing.conversion import Clock, as_columns
+from armscope.recordings.importing.conversion import Clock, as_columns, runs_of
 from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
 from armscope.recordings.importing.mapping import (
     Groups,
     Mapping,
     PerMotor,
+    RunColumn,
     RunFiles,
     Scalar,
     refuse_runs_of_one_name,
@@ -58,6 +59,7 @@ class MotionColumns(Groups):
     current: Efforts | None = None
     payload: Scalar | None = None
     temperature: Scalar | None = None
+    run: RunColumn | None = None
 
     def check(self, of_run: str) -> None:
         """Make sure that nothing needed is missing.
@@ -135,8 +137,9 @@ class MotionConverter:
         assert columns.positions is not None
         effort = columns.torque or columns.current
         assert effort is not None
+        runs = runs_of(piece, columns.run, self.run)
         values = [
-            self.clock.time(piece, columns.time, [self.run] * len(piece))[:, None],
+            self.clock.time(piece, columns.time, runs)[:, None],
             _scaled(piece, columns.positions),
         ]
         if columns.speeds is not None:
@@ -147,9 +150,7 @@ class MotionConverter:
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
             values.append(scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)[:, None])
-        return pd.DataFrame(
-            {"run": [self.run] * len(piece)} | as_columns(motion_columns(columns)[1:], np.hstack(values))
-        )
+        return pd.DataFrame({"run": runs} | as_columns(motion_columns(columns)[1:], np.hstack(values)))
 
 
 def _scaled(piece: Piece, group: MotorPositions | Velocities) -> Array:
