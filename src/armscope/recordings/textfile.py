@@ -198,7 +198,7 @@ def _why_ragged(count: int, width: int) -> str:
 
 
 def _check_header(path: Path, header: list[str]) -> None:
-    if other := what_it_is(header, path.name):
+    if other := what_it_is(header, str(path)):
         raise InputError(path, "line 1", *other)
     if len(header) > MOST_COLUMNS:
         raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")

@@ -128,7 +128,7 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
         if not found:
             seen, line = ", ".join(table.names[:12]), f"line {table.skip + 1}"
             rule = f"no columns look like {what}, nor like time, angles and torques or currents of a motion"
-            raise InputError(path, line, seen, rule, by_hand(table.names, path.name))
+            raise InputError(path, line, seen, rule, by_hand(table.names, str(path)))
     numbers = table.values[:, angles]
     largest = _largest(numbers)
     stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
