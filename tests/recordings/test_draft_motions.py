@@ -51,7 +51,7 @@ def test_a_log_of_a_motion_is_drafted_and_imported(head, kind, groups, tmp_path)
 
 def test_angles_without_time_or_torques_are_told_to_be_neither(tmp_path):
     file = log(tmp_path, "n;run;q1;q2;w1;w2;h1;h2")
-    with pytest.raises(InputError, match="no columns look like measured x, y, z, nor like time, .* of a motion"):
+    with pytest.raises(InputError, match=r"no columns look like measured x, y, z, nor like time, .* of a motion"):
         draft_any_mapping(file)
     with pytest.raises(InputError, match="shows one of points and one of motions"):
         draft_any_mapping(file)

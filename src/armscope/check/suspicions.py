@@ -62,7 +62,10 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     some = _spread_evenly(recordings)
     rows = set_up(arm, some)
     if 3 * len(rows) < TRIALS.rows_per_parameter * rows.free("nominal").sum():
-        hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
+        needed = -(-TRIALS.rows_per_parameter * int(rows.free("nominal").sum()) // 3)
+        cure = f"{len(rows)} are there, {needed} are needed."
+        statement = "too few rows to fit base and tool, so nothing was tried against the arm"
+        hint = Suspicion("hint", statement, cure)
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
     if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())

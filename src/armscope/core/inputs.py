@@ -112,8 +112,8 @@ LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """A sentence that names the known spelling closest to ``name``, or lists what is known."""
-    known = sorted(each for each in known if len(each) <= LONGEST_NAME)[:MOST_NAMES]
-    if len(name) > LONGEST_NAME:
+    known = sorted(each for each in known if 0 < len(each) <= LONGEST_NAME)[:MOST_NAMES]
+    if len(name) > LONGEST_NAME or not known:
         return ""
     in_small = [each for each in known if each.strip().lower() == name.strip().lower()]
     close = in_small or difflib.get_close_matches(name, known, n=1, cutoff=0.5)
