@@ -28,7 +28,7 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="print what looks wrong as JSON in place of words")] = False,
 ) -> None:
     """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
-    from armscope.cli.folders import robot_in, table_in
+    from armscope.recordings.folders import robot_in, table_in
     from armscope.cli.motion import check_motions_table
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.recordings.first_lines import is_motion_table
@@ -97,7 +97,7 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace
 
-    from armscope.cli.folders import robot_for, table_in
+    from armscope.recordings.folders import robot_for, table_in
     from armscope.cli.robots import arm_and_tables
     from armscope.core.files import writable, write_table
 

@@ -43,7 +43,7 @@ ArmOrFolders = Annotated[
         help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list); that of a folder if left out",
     ),
 ]
-"""As a parameter ``robot`` beside a table: `armscope.cli.folders` says which file is meant."""
+"""As a parameter ``robot`` beside a table: `armscope.recordings.folders` says which file is meant."""
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 Threads = Annotated[
     int, typer.Option(min=1, help="processes that share the rows of a long table; the result is the same")

@@ -84,7 +84,7 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
-    from armscope.cli.folders import robot_for, table_in
+    from armscope.recordings.folders import robot_for, table_in
     from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.core.files import writable

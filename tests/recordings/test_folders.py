@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.cli.folders import others_than, robot_for, robot_in, table_in
+from armscope.recordings.folders import others_than, robot_for, robot_in, table_in
 from armscope.core.inputs import InputError
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
