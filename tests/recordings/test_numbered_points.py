@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from armscope.recordings.importing.draft import draft_mapping
-from armscope.recordings.numbered_points import in_words, number_the_rows
+from armscope.recordings.numbered_points import told_of_names, number_the_rows
 
 ROWS = 110
 
@@ -21,7 +21,7 @@ ROWS = 110
 )
 def test_names_that_nearly_all_differ_number_the_rows(names, number):
     assert number_the_rows(names) is number
-    assert in_words(["a", "b", "a"]) == "2 different names in 3 rows"
+    assert told_of_names(["a", "b", "a"]) == "2 different names in 3 rows"
 
 
 @pytest.mark.parametrize("name", ["Point", "Point No", "target_id"])

@@ -11,4 +11,4 @@ def named_row_by_row(recordings: Recordings) -> list[Suspicion]:
     names = recordings.target.tolist()
     if not numbered_points.number_the_rows(names):
         return []
-    return [Suspicion("problem", f"column target: {numbered_points.in_words(names)}", numbered_points.CURE)]
+    return [Suspicion("problem", f"column target: {numbered_points.told_of_names(names)}", numbered_points.CURE)]

@@ -211,7 +211,7 @@ def _check_one_setup(recordings: Recordings) -> None:
     for column, values in (("run", recordings.run), ("target", recordings.target)):
         known = np.unique(values)
         if len(known) > 1 and column == "target" and numbered_points.number_the_rows(values.tolist()):
-            found = numbered_points.in_words(values.tolist())
+            found = numbered_points.told_of_names(values.tolist())
             rule = "an error model is fitted to one target: each is another point of the tool"
             raise InputError(recordings.source, "column target", found, rule, numbered_points.CURE)
         if len(known) > 1:

@@ -18,7 +18,7 @@ def number_the_rows(names: Sequence[str] | Array) -> bool:
     return different >= FEWEST_NAMES and different >= OF_THE_ROWS * len(names)
 
 
-def in_words(names: Sequence[str] | Array) -> str:
+def told_of_names(names: Sequence[str] | Array) -> str:
     """What is found in such a column."""
     return f"{len(set(names))} different names in {len(names)} rows"
 

@@ -70,7 +70,7 @@ class Clock:
         return stamps
 
 
-def runs_of(piece: Piece, group: RunColumn | None, own: str) -> list[str]:
+def runs_of_rows(piece: Piece, group: RunColumn | None, own: str) -> list[str]:
     """Of which run each row of a piece is.
 
     Args:
@@ -104,7 +104,7 @@ class Converter:
         """A piece in the columns of the recordings table that the run has."""
         columns = self.columns
         assert columns.angles is not None
-        runs = runs_of(piece, columns.run, self.run)
+        runs = runs_of_rows(piece, columns.run, self.run)
         table: dict[str, object] = {"id": self._ids(piece), "run": runs}
         if columns.target is not None:
             table["target"] = _label(piece, columns.target)

@@ -13,7 +13,7 @@ from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
 from armscope.recordings.importing.checked_values import required, scalar
-from armscope.recordings.importing.conversion import Clock, as_columns, runs_of
+from armscope.recordings.importing.conversion import Clock, as_columns, runs_of_rows
 from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
 from armscope.recordings.importing.mapping import (
     Groups,
@@ -137,7 +137,7 @@ class MotionConverter:
         assert columns.positions is not None
         effort = columns.torque or columns.current
         assert effort is not None
-        runs = runs_of(piece, columns.run, self.run)
+        runs = runs_of_rows(piece, columns.run, self.run)
         values = [
             self.clock.time(piece, columns.time, runs)[:, None],
             _scaled(piece, columns.positions),
