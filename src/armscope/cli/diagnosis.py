@@ -84,11 +84,11 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
-    from armscope.recordings.folders import robot_for, table_in
     from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.core.files import writable
     from armscope.recordings.first_lines import is_motion_table
+    from armscope.recordings.folders import robot_for, table_in
     from armscope.verdict.filenames import FILES
 
     robot, recordings = robot_for(robot, recordings), table_in(recordings)

@@ -195,6 +195,13 @@ def _register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
     return build_arm(description), Base(placed.rotations[0], placed.translations[0])
 
 
+def left_by_frames_alone(arm: Arm, recordings: Recordings) -> float:
+    """RMS distance, mm, that base and tool alone leave, fitted to rows of one run and target: no model may be worse."""
+    registered, base = _register_frames(arm, recordings)
+    points = (recordings.positions - base.translation) @ base.rotation
+    return rms_distance(points - chain(registered, recordings.motor_angles).tool) * 1e3
+
+
 def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
     return chain(arm, angles).tool * 1e3 if spec.space == "cartesian" else angles
 
