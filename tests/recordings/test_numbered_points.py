@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from armscope.recordings.importing.draft import draft_mapping
-from armscope.recordings.numbered_points import told_of_names, number_the_rows
+from armscope.recordings.numbered_points import number_the_rows, told_of_names
 
 ROWS = 110
 

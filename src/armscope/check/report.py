@@ -21,9 +21,6 @@ from armscope.verdict.schema import ANOTHER_MODEL
 NOT_A_DRIVER = ("orientation", "sigma")
 """What may well be the same in every row."""
 
-MOST_LISTED = 12
-"""Targets of a run, by name."""
-
 
 @dataclass(frozen=True)
 class CheckReport:
@@ -141,7 +138,7 @@ def _of(run: str) -> str:
 def _table_lines(contents: Contents) -> list[str]:
     lines = [f"{contents.source}: {contents.rows} rows, {len(contents.runs)} run(s)"]
     for run in contents.runs:
-        listed = ", ".join(run.targets[:MOST_LISTED]) + ", ..." * (len(run.targets) > MOST_LISTED)
+        listed = ", ".join(run.targets[: TABLE.listed]) + ", ..." * (len(run.targets) > TABLE.listed)
         targets = f", targets {listed}" if run.targets else ""
         size = " x ".join(f"{length * 1e3:.4g}" for length in run.extent)
         lines.append(
