@@ -38,6 +38,7 @@ def test_a_log_of_a_motion_is_drafted_and_imported(head, kind, groups, tmp_path)
     draft = draft_any_mapping(file)
     content = yaml.safe_load(draft)
     assert content["table"] == "motions"
+    assert "--mapping mapping.yaml -o motions.csv\n" in draft
     assert set(content["columns"]) == groups
     assert content["columns"]["time"]["unit"] == "ms"
     assert content["columns"]["positions"]["unit"] == "deg"

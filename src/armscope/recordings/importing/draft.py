@@ -75,14 +75,14 @@ def draft_mapping(path: Path | str) -> str:
     if unused:
         shown = ", ".join(quoted(printable(name)) for name in unused[:MOST_NAMED])
         lines += [f"# not used: {shown}{', ...' * (len(unused) > MOST_NAMED)}"]
-    text = "\n".join([HEAD.format(path.name), *lines, ""])
+    text = "\n".join([HEAD.format(printable(path.name), "recordings.csv"), *lines, ""])
     validate(Mapping, yaml.safe_load(text), path)
     return text
 
 
 HEAD = (
     "# A draft for {}: read every guess, mend it where it is wrong, then\n"
-    "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
+    "# armscope import TABLE --mapping mapping.yaml -o {}"
 )
 
 

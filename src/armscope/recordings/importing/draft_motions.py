@@ -62,7 +62,13 @@ def draft_any_mapping(path: Path | str) -> str:
     if not columns:
         return draft_mapping(path)
     unused = [name for name in table.names if not any(quoted(name) in line for line in columns)]
-    lines = [HEAD.format(printable(path.name)), "table: motions", *format_lines(table), "columns:", *columns]
+    lines = [
+        HEAD.format(printable(path.name), "motions.csv"),
+        "table: motions",
+        *format_lines(table),
+        "columns:",
+        *columns,
+    ]
     lines += ["# not used: " + ", ".join(quoted(printable(name)) for name in unused)] if unused else []
     text = "\n".join([*lines, ""])
     validate(MotionMapping, yaml.safe_load(text), path)
