@@ -14,6 +14,7 @@ from armscope.recordings.motions import read_motions
 N = 40
 GERMAN = "Zeit [ms];Bahn;Achse1 Ist [Grad];Achse2 Ist [Grad];M1 [Nm];M2 [Nm];Last [kg];Not-Aus"
 PLAIN = "time;run;q1;q2;i1;i2;dq1;dq2"
+WARM = "time;run;q1;q2;tau1;tau2;temp1;temp2"
 
 
 def log(folder: Path, head: str) -> Path:
@@ -30,6 +31,7 @@ def log(folder: Path, head: str) -> Path:
     ("head", "kind", "groups"),
     [
         (GERMAN, "torque", {"time", "positions", "torque", "run", "payload"}),
+        (WARM, "torque", {"time", "positions", "torque", "run", "temperatures"}),
         (PLAIN, "current", {"time", "positions", "current", "run", "speeds"}),
     ],
 )

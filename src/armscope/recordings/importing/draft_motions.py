@@ -39,6 +39,7 @@ EFFORTS = {
     "current": ("current", "curr", "i", "amp", "strom"),
 }
 """What columns of torques and currents are called, as far as they are numbered by motor."""
+WARMTH = ("temp", "temperature", "temperatur")
 TIME = r"(time|zeit|t|timestamp|clock)([\s_.\[(]*(s|ms|sec|seconds))?[\])]?"
 TIME_UNITS = {"s": "s", "sec": "s", "seconds": "s", "ms": "ms"}
 SECONDS_UP_TO = 0.5
@@ -46,7 +47,7 @@ SECONDS_UP_TO = 0.5
 MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
 SCALARS = {
     "payload": r"(payload|load|last)([\s_.\[(]*kg)?[\])]?",
-    "temperature": r"temp\w*([\s_.\[(]*(°?c|degc))?[\])]?",
+    "temperature": r"temp(eratur|erature)?([\s_.\[(]*(°?c|degc))?[\])]?",
 }
 
 
@@ -101,10 +102,14 @@ def _of_a_motion(table: ForeignTable) -> Iterator[str]:
     kind, columns = next(iter(efforts.items()))
     say = {"torque": "N m; positive along the motion that it drives: check the sign", "current": "A; else say scale"}
     yield f"  {kind}: {{columns: {column_list(table, columns)}}}   # guessed by name: {say[kind]}"
+    if warm := _beside(table, WARMTH, angles):
+        yield f"  temperatures: {{columns: {column_list(table, warm)}}}   # guessed by name: degrees Celsius"
     run = _called(names, MOTION_RUNS)
     if run is not None and not number_the_rows([row[run] for row in table.cells]):
         yield f"  run: {{column: {quoted(table.names[run])}}}   # guessed by name: of which motion each row is"
     for group, pattern in SCALARS.items():
+        if group == "temperature" and warm:
+            continue
         if (column := _called(names, pattern)) is not None and np.isfinite(table.values[:, column]).any():
             yield f"  {group}: {{column: {quoted(table.names[column])}}}   # guessed by name"
 
