@@ -1,5 +1,6 @@
 """Sound tables are left in peace, what is odd in one is said."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -167,6 +168,7 @@ def test_too_few_rows_are_looked_at_without_the_arm(arm, sound):
     for count in (1, 2, 3):
         text = check(sound.rows(slice(count)), arm).text()
         assert "too few rows to fit base and tool" in text
+        assert re.search(r"\d+ are there, \d+ are needed", text)
         assert "plane" not in text
 
 

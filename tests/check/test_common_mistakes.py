@@ -77,6 +77,11 @@ def _again(mistake, words):
         ),
         (lambda t: replace(t, positions=t.positions / 25.4), "inches that were declared as millimetres"),
         (
+            lambda t: replace(t, positions=t.positions / [1, 10, 1]),
+            "y looks like centimetres, where x and z are millim",
+        ),
+        (lambda t: replace(t, positions=t.positions / [1, 1, 25.4]), "z looks like inches, where x and y are millim"),
+        (
             lambda t: replace(t, motor_angles=t.motor_angles[:, [0, 1, 2, 4, 3, 5]]),
             "joints 4 and 5 are exchanged",
         ),

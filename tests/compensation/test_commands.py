@@ -1,10 +1,12 @@
 """From recordings to commands by the command line."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
@@ -15,6 +17,7 @@ from armscope.compensation.physical import load_identified, save_identified
 from armscope.compensation.rapid import read_rapid
 from armscope.core.inputs import InputError
 from armscope.physics.model_file import save_model
+from armscope.recordings.columns import AXES_MM
 from armscope.robot import forward_kinematics
 from tests.robot.arms import CONFIG, SK120
 
@@ -212,3 +215,27 @@ def test_products_compensate_too(recordings, tmp_path):
     nominal = forward_kinematics(sk120(), result.commands) * 1e3
     assert np.abs(nominal + [1.0, -2.0, 0.5] + nominal * 1e-3 - wanted_points(30) * 1e3).max() < 0.1
     assert isinstance(run(*call, "--regions", 2).exception, InputError)
+
+
+def test_what_the_model_leaves_of_its_own_rows_is_said_of_a_correction():
+    """The predicted rest, nothing, is what the model thinks of itself."""
+    model = replace(black_box(), rms_mm=np.array([0.8, 0.0, 0.6]))
+    path = as_path(table_of(wanted_points(5)), "points", model.arm)
+    (note,) = compensate_black_box(model, path).notes
+    assert note.endswith("what the model leaves of the rows that it was fitted to: 1 mm RMS of the distance")
+    (note,) = compensate_black_box(replace(model, rms_mm=np.full(3, 50.0)), path).notes
+    assert "so the arm gets no better" in note
+
+
+def test_a_model_that_is_worse_than_base_and_tool_alone_is_warned_of(tmp_path):
+    """Points of an instrument that stands 20 mm beside the base: a model of them without --register takes the shift."""
+    angles = identification_angles()
+    points = forward_kinematics(sk120(), angles) * 1e3
+    turn = Rotation.from_rotvec([0.0, 0.0, 0.004]).as_matrix()
+    table = {f"q{j + 1}_rad": angles[:, j] for j in range(6)} | dict(zip(AXES_MM, (points @ turn.T).T, strict=True))
+    pd.DataFrame(table).to_csv(tmp_path / "r.csv", index=False)
+    words = ("fit-error-model", tmp_path / "r.csv", "--robot", SK120, "-o", tmp_path / "e.json", "--model", "FDP(AI)")
+    done = run(*words)
+    assert done.exit_code == 0, done.output
+    assert "base and tool alone leave" in done.stderr
+    assert "it makes the arm worse. Give --register." in done.stderr

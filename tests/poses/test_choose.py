@@ -130,3 +130,11 @@ def test_an_arm_whose_effects_no_pose_shows_is_refused():
     one = build_arm(RobotDescription.model_validate({"name": "one joint", "dh": rows}))
     with pytest.raises(InputError, match="nothing of them beside base and tool"):
         choose(one, 12, n_candidates=40)
+
+
+def test_of_poses_that_nothing_allows_the_option_to_blame_is_named(arm):
+    """Most of them hit themselves, too: that is no reason to name what nobody stated."""
+    with pytest.raises(InputError, match=r"--floor-mm: found '9000'; 0 possible .*hits the floor; without this option"):
+        candidates(arm, 50, Surroundings(floor=9.0), 0)
+    with pytest.raises(InputError, match=r"^--tracker: found '0,0,50'.*out of the tracker's sight"):
+        candidates(arm, 50, Surroundings(tracker=np.array([0.0, 0.0, 0.05])), 0)

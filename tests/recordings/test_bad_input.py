@@ -111,6 +111,17 @@ def complaint(file, **options):
         ),
         pytest.param(table(*ROWS).replace("q1_rad", "J1").replace("q2_rad", "J2"), ["'J1'", "call it q1_rad"], id="J1"),
         pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
+        pytest.param(
+            changed(1, "x_mm", "NaN"),
+            ["row 3, column x_mm: found nothing, written 'NaN'", "required"],
+            id="no value in words",
+        ),
+        pytest.param(changed(1, "x_mm", ""), ["row 3, column x_mm: found nothing", "required"], id="no value"),
+        pytest.param(
+            "run,time_s,q1_rad,q2_rad\na,0,0.1,0.2\n",
+            ["no columns x_mm, y_mm, z_mm, and neither tau1_nm nor current1_a", "torques stand in tau1_nm"],
+            id="angles alone",
+        ),
         pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
         pytest.param(changed(1, "x_mm", "1.5e7"), ["row 3", "x_mm", "10 km"], id="beyond any instrument"),
     ],
@@ -272,3 +283,9 @@ def test_a_column_with_a_slip_is_kept_and_said_to_be_like_a_known_one(tmp_path):
 def test_four_numbers_that_are_no_quaternion_are_told_what_they_may_be(tmp_path, numbers, cure):
     rows = [f"{row},{numbers}" for row in ROWS]
     assert cure in complaint(write(tmp_path, table(*rows, header=HEADER + ",qw,qx,qy,qz")))
+
+
+def test_a_run_of_a_table_without_runs_is_told_as_that(tmp_path):
+    recordings = read_recordings(write(tmp_path, "q1_rad,q2_rad,x_mm,y_mm,z_mm\n0.1,0.2,1,2,3\n"))
+    with pytest.raises(InputError, match=r"found 'nix'; no row has this run\. The table names no runs"):
+        recordings.of_runs(["nix"])

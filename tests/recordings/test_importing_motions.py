@@ -115,3 +115,31 @@ def test_a_real_set_converts_to_the_reference_table_within_its_rounding(folder: 
         same = whole.iloc[start : start + len(rows)]
         np.testing.assert_allclose(rows[told], same[told], rtol=1e-8, atol=1e-8, err_msg=str(run))
         np.testing.assert_allclose(np.diff(rows["time_s"]), np.diff(same["time_s"]), atol=1e-6)
+
+
+def test_several_motions_of_one_file_are_runs_of_their_own(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text("t,Bahn,q1,q2,M1,M2\n0,B1,1,2,3,4\n10,B1,1,2,3,4\n0,B2,1,2,3,4\n")
+    groups = {"positions": {"columns": ["q1", "q2"], "unit": "deg"}, "torque": {"columns": ["M1", "M2"]}}
+    columns = {"time": {"column": "t", "unit": "ms"}, "run": {"column": "Bahn"}} | groups
+    mapping = tmp_path / "mapping.yaml"
+    mapping.write_text(yaml.safe_dump({"table": "motions", "columns": columns}))
+    report = import_recordings([tmp_path / "log.csv"], mapping, tmp_path / "motions.csv")
+    assert "3 rows, 2 run(s)" in report.text()
+    assert read_motions(tmp_path / "motions.csv", 2).run.tolist() == ["B1", "B1", "B2"]
+    (tmp_path / "log.csv").write_text("t,Bahn,q1,q2,M1,M2\n0,B1,1,2,3,4\n10,,1,2,3,4\n")
+    with pytest.raises(InputError, match="line 3, column Bahn: found nothing; every row is of a run"):
+        import_recordings([tmp_path / "log.csv"], mapping, tmp_path / "again.csv")
+
+
+def test_each_motor_may_have_a_temperature_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "log.csv").write_text("t,q1,q2,M1,M2,T1,T2\n0,1,2,3,4,20,30\n10,1,2,3,4,21,\n")
+    groups = {"positions": {"columns": ["q1", "q2"], "unit": "deg"}, "torque": {"columns": ["M1", "M2"]}}
+    columns = {"time": {"column": "t", "unit": "ms"}, "temperatures": {"columns": ["T1", "T2"]}} | groups
+    mapping = tmp_path / "mapping.yaml"
+    mapping.write_text(yaml.safe_dump({"table": "motions", "columns": columns | {"payload": {"constant": 2}}}))
+    report = import_recordings([tmp_path / "log.csv"], mapping, tmp_path / "motions.csv")
+    assert report.columns[-3:] == ("payload_kg", "temperature1_c", "temperature2_c")
+    np.testing.assert_array_equal(read_motions(tmp_path / "motions.csv", 2).temperature, [[20, 30], [21, np.nan]])
+    mapping.write_text(yaml.safe_dump({"table": "motions", "columns": columns | {"temperature": {"constant": 20}}}))
+    with pytest.raises(InputError, match="one of the two"):
+        load_any_mapping(mapping)

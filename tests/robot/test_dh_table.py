@@ -81,3 +81,16 @@ def test_what_is_no_table_is_one_error(text, words):
 def test_any_text_is_an_arm_or_one_error(text):
     with contextlib.suppress(InputError):
         assert parse_dh_table(text, "arm").dh.joints
+
+
+def test_a_quarter_turn_in_radians_beside_degrees_is_refused_with_its_line():
+    mixed = "a alpha d theta\n0 1.5708 89 0\n-425 90 0 0\n"
+    with pytest.raises(
+        InputError, match=r"line 2, alpha: found '1\.5708'; this is 90 degrees.*of line 3, 90, is in deg"
+    ):
+        parse_dh_table(mixed, "arm")
+    with pytest.raises(InputError, match=r"line 1, alpha: found '1\.5708'.*theta of line 2, -90"):
+        parse_dh_table("0 pi/2 89 0\n425 0 0 -90\n", "arm")
+    for sound in (mixed.replace("1.5708", "90"), mixed.replace("90", "0"), mixed.replace("1.5708", "1.51")):
+        parse_dh_table(sound, "arm")
+    parse_dh_table("a [mm];alpha [deg];d [mm]\n0;1.5708;89\n425;90;0\n", "arm")  # as it states

@@ -95,3 +95,17 @@ def test_a_machine_of_which_nothing_turns_is_the_axes_that_slide(tmp_path):
     assert (found.tip, found.held) == ("cart", {})
     with pytest.raises(InputError, match="sliding joint"):
         load_arm(robot(tmp_path, rail))  # positions need hinges; `diagnose` of a motion does not
+
+
+@pytest.mark.parametrize(
+    ("kind", "inside", "told"),
+    [
+        ("revolute", LIMIT + '<mimic joint="j2"/>', "joint j3 behind it mimics j2, so that no motor"),
+        ("floating", "", "joint j3 behind it is floating, which no motor turns: make it `revolute`"),
+    ],
+)
+def test_a_joint_that_ends_the_arm_early_is_named_with_the_reason(kind, inside, told, tmp_path):
+    file = robot(tmp_path, *arm(n=2), ("j3", kind, "l2", "l3", inside), ("end", "fixed", "l3", "tool0", ""))
+    found = guess_chain(str(file), root_of(str(file)))
+    assert found.tip == "l2"
+    assert told in found.guesses["tip"]

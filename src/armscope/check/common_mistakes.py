@@ -108,10 +108,11 @@ def _units() -> Iterator[Trial]:
         statement = f"the positions look like {right} that were declared as {wrong}"
         yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, factor)))
     for axis, others in (("x", "y and z"), ("y", "x and z"), ("z", "x and y")):
-        enlarged = np.where(np.array(list("xyz")) == axis, 1e3, 1.0)
-        statement = f"{axis} looks like metres, where {others} are millimetres"
-        cure = f"Multiply {axis}_mm by 1000: all three need one unit."
-        yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, enlarged)))
+        for factor, right in ((1e3, "metres"), (10.0, "centimetres"), (25.4, "inches")):
+            enlarged = np.where(np.array(list("xyz")) == axis, factor, 1.0)
+            statement = f"{axis} looks like {right}, where {others} are millimetres"
+            cure = f"Multiply {axis}_mm by {factor:g}: all three need one unit."
+            yield Trial("units", statement, cure, _changed("positions", partial(np.multiply, enlarged)))
 
 
 def _joints(n_motors: int) -> Iterator[Trial]:

@@ -125,6 +125,7 @@ class TableRules(Constants):
         "judgement: below, frames and a handful of effects take up all there is",
         unit="rows",
     )
+    listed: int = constant(12, "targets of a run that are told by name", "judgement: more than any tool has")
     too_far: float = constant(
         0.03, "share of the reach beyond which a residual is no calibration error", "judgement: ten times a bad arm's"
     )

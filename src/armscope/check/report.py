@@ -12,6 +12,7 @@ from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.quantities import of_quantities
 from armscope.check.suspicion import BESIDE, Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
+from armscope.check.targets import named_row_by_row
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
@@ -67,7 +68,8 @@ def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
     fits = arm if arm is not None and arm.n_motors == recordings.n_motors else None
     of_arm = consistency.suspicions if consistency else ()
     found = [*_of_table(contents), *_still(recordings), *of_quantities(recordings, fits)]
-    return CheckReport(contents, consistency, (*of_arm, *found, *([] if arm else _of_units(contents))))
+    alone = [] if arm else [*named_row_by_row(recordings), *_of_units(contents)]
+    return CheckReport(contents, consistency, (*of_arm, *found, *alone))
 
 
 def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
@@ -136,7 +138,8 @@ def _of(run: str) -> str:
 def _table_lines(contents: Contents) -> list[str]:
     lines = [f"{contents.source}: {contents.rows} rows, {len(contents.runs)} run(s)"]
     for run in contents.runs:
-        targets = f", targets {', '.join(run.targets)}" if run.targets else ""
+        listed = ", ".join(run.targets[: TABLE.listed]) + ", ..." * (len(run.targets) > TABLE.listed)
+        targets = f", targets {listed}" if run.targets else ""
         size = " x ".join(f"{length * 1e3:.4g}" for length in run.extent)
         lines.append(
             f"  run {run.name or '(no name)'}: {run.rows} rows, {run.configurations} configurations{targets}; "

@@ -22,6 +22,7 @@ from armscope.check.nominal_arms import better_arm
 from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
 from armscope.check.suspicion import Suspicion
+from armscope.check.targets import named_row_by_row
 from armscope.core.averages import rms_distance
 from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
@@ -56,10 +57,15 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         cure = "" if recordings.extra is None else counted_from_zero(map(str, recordings.extra.columns))
         wrong = Suspicion("problem", statement, cure or "Is this the right robot for the recordings?")
         return Consistency(float("nan"), _spread(recordings), 0, (wrong,))
+    if numbered := named_row_by_row(recordings):
+        return Consistency(float("nan"), _spread(recordings), 0, tuple(numbered))
     some = _spread_evenly(recordings)
     rows = set_up(arm, some)
     if 3 * len(rows) < TRIALS.rows_per_parameter * rows.free("nominal").sum():
-        hint = Suspicion("hint", "too few rows to fit base and tool, so nothing was tried against the arm")
+        needed = -(-TRIALS.rows_per_parameter * int(rows.free("nominal").sum()) // 3)
+        cure = f"{len(rows)} are there, {needed} are needed."
+        statement = "too few rows to fit base and tool, so nothing was tried against the arm"
+        hint = Suspicion("hint", statement, cure)
         return Consistency(float("nan"), _spread(recordings), 0, (hint,))
     if not moving(recordings.motor_angles).any():  # what is left is noise
         return Consistency(float("nan"), _spread(recordings), 0, ())

@@ -28,10 +28,10 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="print what looks wrong as JSON in place of words")] = False,
 ) -> None:
     """Say what a recordings table holds and what looks wrong in it; exit code 1 if something does."""
-    from armscope.cli.folders import robot_in, table_in
     from armscope.cli.motion import check_motions_table
     from armscope.cli.robots import print_json, robot_of, table_of
     from armscope.recordings.first_lines import is_motion_table
+    from armscope.recordings.folders import robot_in, table_in
 
     robot, recordings = robot or robot_in(recordings), table_in(recordings)
     if is_motion_table(recordings):
@@ -97,9 +97,9 @@ def calibrate(
     """Calibrate the arm's geometry and export it as robot.yaml and URDF."""
     from dataclasses import replace
 
-    from armscope.cli.folders import robot_for, table_in
     from armscope.cli.robots import arm_and_tables
     from armscope.core.files import writable, write_table
+    from armscope.recordings.folders import robot_for, table_in
 
     writable(output, *FILES, *TABLES)
     arm, (table,) = arm_and_tables(robot_for(robot, recordings), [table_in(recordings)])

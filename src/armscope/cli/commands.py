@@ -43,7 +43,7 @@ ArmOrFolders = Annotated[
         help="the nominal arm: robot.yaml, a URDF, or a name (armscope init --list); that of a folder if left out",
     ),
 ]
-"""As a parameter ``robot`` beside a table: `armscope.cli.folders` says which file is meant."""
+"""As a parameter ``robot`` beside a table: `armscope.recordings.folders` says which file is meant."""
 Force = Annotated[bool, typer.Option("--force", help="overwrite files that armscope did not write (never an input)")]
 Threads = Annotated[
     int, typer.Option(min=1, help="processes that share the rows of a long table; the result is the same")
@@ -108,8 +108,11 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
         reads = _paths(value for name, value in values.items() if name not in outputs)
         for name, value in values.items():
             absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
-            _refuse_absent([path for path in absent if not (name in NOMINAL and _in_library(path))], hints[name])
+            arms = name in NOMINAL
+            _refuse_absent([path for path in absent if not (arms and _in_library(path))], _help(hints[name]), arms)
         writes = _paths(value for name, value in values.items() if name in outputs)
+        for name in outputs:
+            _refuse_file(_paths([values[name]]), _help(hints[name]))
         _refuse_workbooks(writes)
         delivery = Delivery(command, reads, writes, force)
         with processes(values.get("threads", 1)), told_to_end(), _stdout_kept_for_data(writes), delivery.running():
@@ -148,22 +151,49 @@ def _paths(values: Iterable[Any]) -> list[Path]:
     return [each for value in several for each in value if isinstance(each, Path)]
 
 
-def _refuse_absent(paths: list[Path], hint: Any) -> None:
+def _help(hint: Any) -> str:
+    """What a parameter is, in the words of the command's help; "" where it has none."""
+    return str(next((each.help for each in getattr(hint, "__metadata__", ()) if getattr(each, "help", None)), ""))
+
+
+def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
     """What is to be read must be there: said before a command imports what it works with.
 
+    Args:
+        paths: what is not there.
+        needed: what it should be.
+        arms: whether a name of the library would do.
+
     Raises:
-        InputError: it is not.
+        InputError: there is one.
     """
     for path in paths:
-        needed = next((each.help for each in getattr(hint, "__metadata__", ()) if hasattr(each, "help")), None)
-        alike = _named_like(path)
+        alike = _named_like(path, arms)
         cure = f"Did you mean {alike!r}?" if alike else "No such file or directory."
         if path.is_symlink():
             cure = f"It is a link to {os.readlink(path)}, where no file is."
+        elif not arms and _in_library(path):
+            cure = f"{path} is an arm of the library, and no file"
+            cure += f": `armscope init {path} -o robot.yaml` writes one." if "robot.yaml" in needed else "."
         raise InputError(path, "", "no readable file", f"needed here: {needed or 'a file'}", cure)
 
 
-def _named_like(path: Path) -> str:
+def _refuse_file(paths: list[Path], needed: str) -> None:
+    """What several files go into is no file, and --force makes it none.
+
+    Args:
+        paths: where a command writes.
+        needed: what it should be.
+
+    Raises:
+        InputError: a folder is needed, and a file is there.
+    """
+    for path in paths if needed.startswith("folder") else ():
+        if path.exists() and not path.is_dir():
+            raise InputError(path, "", "a file", f"needed here: {needed}", "Choose another name.")
+
+
+def _named_like(path: Path, arms: bool) -> str:
     """What a file that is not there may be a misspelling of: packed, a file beside it, an arm of the library; or ""."""
     hidden = path.name.startswith(".")  # nobody means a hidden file by another name
     there = path.parent.glob("*") if path.parent.is_dir() else ()
@@ -171,8 +201,8 @@ def _named_like(path: Path) -> str:
     if f"{path.name}.gz" in beside:
         return f"{path}.gz"
     own = [name for name in beside if Path(name).suffix == path.suffix]
-    arms = [] if path.suffix or len(path.parts) > 1 else _arms_of_library()
-    for known, likeness in ((arms, ALIKE), (own, SOMEHOW_ALIKE), (beside, ALIKE)):
+    known_arms = _arms_of_library() if arms and not path.suffix and len(path.parts) == 1 else []
+    for known, likeness in ((known_arms, ALIKE), (own, SOMEHOW_ALIKE), (beside, ALIKE)):
         if found := difflib.get_close_matches(path.name, known, 1, likeness):
             return found[0]
     return ""

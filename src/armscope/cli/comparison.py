@@ -32,8 +32,8 @@ def compare(
     Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
     changed. Base and tool may differ.
     """
-    from armscope.cli.folders import others_than, robot_for, table_in
     from armscope.cli.robots import arm_and_tables, print_json
+    from armscope.recordings.folders import others_than, robot_for, table_in
 
     used = robot_for(robot, recordings[0])
     for other in others_than(used, recordings):

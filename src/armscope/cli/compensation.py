@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 app = Commands()
 
 MOST_CAUSES = 10
+SEEN_MM = 1e-3
+"""What instruments tell apart at best: what two fits leave may differ by rounding."""
 REFUSED = 3
 """Exit code where some rows of a path have no command."""
 
@@ -124,6 +126,7 @@ def fit_error_model(
 
     from armscope.compensation.error_model_file import save_error_model
     from armscope.compensation.fitting import fit_error_model as fit
+    from armscope.compensation.fitting import left_by_frames_alone
 
     for column, wanted in (("run", run), ("target", target)):
         if wanted is not None:
@@ -137,6 +140,11 @@ def fit_error_model(
     save_error_model(output, fitted)
     left = ", ".join(f"{value:.4g}" for value in fitted.rms_mm)
     print(f"{fitted.name} by {fitted.method} on {len(table)} rows leaves ({left}) mm RMS along x, y, z")
+    alone = left_by_frames_alone(arm, table)
+    if fitted.left_mm > alone + SEEN_MM:
+        left = f"{fitted.left_mm:.3g} mm RMS of the distance, where base and tool alone leave {alone:.3g} mm"
+        cure = " Give --register." if not register else " Another --model, or `armscope diagnose`, may do better."
+        print(f"warning: this model leaves {left}: it makes the arm worse.{cure}", file=sys.stderr)
     if fitted.turning is not None:
         turned = ", ".join(f"{value:.4g}" for value in fitted.turning.rms_mrad)
         print(f"and ({turned}) mrad RMS about x, y, z of the base frame")

@@ -15,9 +15,14 @@ from armscope.cli.endings import exit_code_of
 from armscope.core.types import unheard
 
 if TYPE_CHECKING:
-    pass
+    from armscope.recordings import Recordings
+    from armscope.robot import Arm
+    from armscope.verdict.schema import Verdict
 
 app = Commands()
+
+MOST_NAMED = 5
+"""Suspect rows that the console names."""
 
 PAGES = (
     "report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv",
@@ -79,11 +84,11 @@ def diagnose(
     written, unless --anyway.
     """
     from armscope.cli.cost import DIAGNOSE, announce
-    from armscope.cli.folders import robot_for, table_in
     from armscope.cli.motion import MotionOptions, diagnose_motions
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.core.files import writable
     from armscope.recordings.first_lines import is_motion_table
+    from armscope.recordings.folders import robot_for, table_in
     from armscope.verdict.filenames import FILES
 
     robot, recordings = robot_for(robot, recordings), table_in(recordings)
@@ -127,12 +132,8 @@ def diagnose(
 
             tell("drawing the report", 0.95)
             write_report(verdict, output)
-    from armscope.check.suspicion import BESIDE
-    from armscope.verdict.payload_place import of_payloads
-
-    obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
-    for notice in (*(each for each in verdict.notices if each.kind in ("check", *BESIDE)), *obstacle):
-        print(f"note: {notice.text}", file=sys.stderr)
+    for note in _notes(verdict, arm, table):
+        print(f"note: {note}", file=sys.stderr)
     if json:
         print_json(verdict.to_json())
     else:
@@ -140,6 +141,27 @@ def diagnose(
         print(f"{output}/{'report.html' if report else 'verdict.json'}")
     if exit_code:
         raise typer.Exit(exit_code_of(verdict.answer))
+
+
+def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
+    """What stands beside the answer: the check's doubts, what makes it impossible, rows that look like bad shots."""
+    from armscope.check.preconditions import rows_needed
+    from armscope.check.suspicion import BESIDE
+    from armscope.verdict.payload_place import of_payloads
+
+    obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
+    yield from (each.text for each in verdict.notices if each.kind in ("check", *BESIDE))
+    yield from (each.text for each in obstacle)
+    if any(each.kind == "fewer rows than parameters" for each in obstacle):
+        yield f"of these runs and targets a diagnosis needs {rows_needed(arm, table)} rows at least."
+    if suspects := verdict.suspects:
+        rows = [f"{f'{row.run}: ' if row.run else ''}{row.id} ({_rounded(row.residual_mm)} mm off)" for row in suspects]
+        more = f", ... ({len(rows)} in all: suspects.csv)" if len(rows) > MOST_NAMED else ""
+        yield f"rows that look like bad shots, and count for little: {', '.join(rows[:MOST_NAMED])}{more}"
+
+
+def _rounded(size: float) -> str:
+    return f"{size:.0f}" if size >= 100 else f"{size:.3g}"
 
 
 def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> None:

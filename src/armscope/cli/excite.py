@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -102,11 +103,24 @@ def _told(done: int, of: int) -> None:
         print(f"\r{done} of {of} motions tried", end=end, file=sys.stderr, flush=True)
 
 
+def _maximised(found: Excitation) -> str:
+    """What the search maximises, of the median random motion and of this one; conditions are nobody's aim."""
+    before, after = found.before, found.after
+    remark = f"condition number {before.condition:.3g} and {after.condition:.3g}, which nothing maximises"
+    if found.pairs:
+        worst = f"{before.value:.0%} of the median random motion, {after.value:.0%} of this one"
+        return f"least share that can't be imitated: {worst}; {remark}"
+    surer = math.exp((after.value - before.value) / (2 * len(found.shown.base)))
+    value = f"{before.value:.4g} of the median random motion, {after.value:.4g} of this one"
+    told = f"its parameters come out {surer:.3g} times as surely (geometric mean)"
+    return f"log determinant of the information: {value}: {told}; {remark}"
+
+
 def _tell(found: Excitation) -> None:
     from armscope.poses.exciting.output import collisions_in_words
 
     before, after = found.before, found.after
-    print(f"condition number {before.condition:.3g} of the median random motion, {after.condition:.3g} of this one")
+    print(_maximised(found))
     for pair, was, is_now in zip(found.pairs, before.separations, after.separations, strict=True):
         words = " and ".join(" at ".join(cause) for cause in pair)
         print(f"{words}: {was:.0%} of the torque of one can't be imitated by the other, now {is_now:.0%}")

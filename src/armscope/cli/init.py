@@ -63,9 +63,9 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
     elif Path(what).exists() or not is_nominal(what):
         if not Path(what).exists() and not Path(what).suffix:
             nominal_file(what)
-        from armscope.recordings.importing.draft import draft_mapping
+        from armscope.recordings.importing.draft_motions import draft_any_mapping
 
-        text = draft_mapping(what)
+        text = draft_any_mapping(what)
         return text, [line.strip() for line in text.splitlines() if "# guessed" in line]
     else:
         file = nominal_file(what)

@@ -98,7 +98,8 @@ def _read_and_checked(table: Path, robot: Path, asked: MotionOptions) -> tuple[M
     for run in (*asked.runs, *asked.held_out):
         if run not in motions.runs:
             option = "--run" if run in asked.runs else "--held-out"
-            raise InputError(option, "", run, f"{table} has no such run", nearest(run, motions.runs))
+            cure = nearest(run, motions.runs) or "The table names no runs (column run): leave this out."
+            raise InputError(option, "", run, f"{table} has no such run", cure)
     if asked.runs:
         motions = motions.rows(np.isin(motions.run, [*asked.runs, *asked.held_out]))
     from armscope.check.motions import check_moving

@@ -75,6 +75,11 @@ class ErrorModel:
         """What the error follows: "cartesian" (nominal position) or "angular" (motor angles)."""
         return self.features.spec.space
 
+    @property
+    def left_mm(self) -> float:
+        """RMS distance that it leaves on the rows that it was fitted to: what its corrections leave at least."""
+        return float(np.linalg.norm(self.rms_mm))
+
     def error_and_slope(self, angles: Array, nominal: Array) -> tuple[Array, Array]:
         """Errors (N, 3), m, and their derivatives (N, 3, 3) by the nominal position (m/m) or (N, 3, m) by the angles.
 

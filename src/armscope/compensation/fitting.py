@@ -27,7 +27,7 @@ from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.physics.model import Base
-from armscope.recordings import Recordings
+from armscope.recordings import Recordings, numbered_points
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
 
@@ -195,6 +195,13 @@ def _register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
     return build_arm(description), Base(placed.rotations[0], placed.translations[0])
 
 
+def left_by_frames_alone(arm: Arm, recordings: Recordings) -> float:
+    """RMS distance, mm, that base and tool alone leave, fitted to rows of one run and target: no model may be worse."""
+    registered, base = _register_frames(arm, recordings)
+    points = (recordings.positions - base.translation) @ base.rotation
+    return rms_distance(points - chain(registered, recordings.motor_angles).tool) * 1e3
+
+
 def _inputs(arm: Arm, spec: ModelSpec, angles: Array) -> Array:
     return chain(arm, angles).tool * 1e3 if spec.space == "cartesian" else angles
 
@@ -210,6 +217,10 @@ def _check_rows(how: _How, arm: Arm, recordings: Recordings, what: str = "rows")
 def _check_one_setup(recordings: Recordings) -> None:
     for column, values in (("run", recordings.run), ("target", recordings.target)):
         known = np.unique(values)
+        if len(known) > 1 and column == "target" and numbered_points.number_the_rows(values.tolist()):
+            found = numbered_points.told_of_names(values.tolist())
+            rule = "an error model is fitted to one target: each is another point of the tool"
+            raise InputError(recordings.source, "column target", found, rule, numbered_points.CURE)
         if len(known) > 1:
             raise InputError(
                 recordings.source,

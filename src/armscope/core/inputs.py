@@ -82,14 +82,38 @@ def why_unreadable(error: Exception) -> str:
     return f"Its gzipped content is damaged ({error}): copy or download it again."
 
 
+def unreadable(path: Path, error: OSError, endings: tuple[str, ...]) -> tuple[str, str]:
+    """What stands at a path that can't be read as a file, and what to do about it.
+
+    Args:
+        path: the path.
+        error: why it can't be read.
+        endings: of the files that may be meant where it is a folder.
+
+    Returns:
+        What was found, and the cure.
+    """
+    if not path.is_dir():
+        return "no readable file", error.strerror or ""
+    inside = sorted(each.name for each in path.iterdir() if each.name.endswith(endings))[:MOST_OFFERED]
+    listed = ", ".join(str(path / name) for name in inside)
+    return (
+        "no readable file, but a folder",
+        f"Name the file in it: {listed}." if inside else "Name a file: it has none that could be meant.",
+    )
+
+
+MOST_OFFERED = 3
+"""Files of a folder that an error offers."""
+
 LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
 """Beyond these a name is no slip of the pen, and likeness takes too long to measure."""
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """A sentence that names the known spelling closest to ``name``, or lists what is known."""
-    known = sorted(each for each in known if len(each) <= LONGEST_NAME)[:MOST_NAMES]
-    if len(name) > LONGEST_NAME:
+    known = sorted(each for each in known if 0 < len(each) <= LONGEST_NAME)[:MOST_NAMES]
+    if len(name) > LONGEST_NAME or not known:
         return ""
     in_small = [each for each in known if each.strip().lower() == name.strip().lower()]
     close = in_small or difflib.get_close_matches(name, known, n=1, cutoff=0.5)
@@ -116,7 +140,8 @@ def read_yaml(path: Path | str) -> Any:
             raise InputError(path, f"byte {content.index(0)}", "no UTF-8 text", "YAML files are UTF-8")
         return plain_yaml(content.decode("utf-8-sig"))
     except OSError as error:
-        raise InputError(path, "", "no readable file", "a YAML file is needed here", error.strerror or "") from error
+        found, cure = unreadable(path, error, (".yaml", ".yml"))
+        raise InputError(path, "", found, "a YAML file is needed here", cure) from error
     except (yaml.YAMLError, NotPlain) as error:
         mark = getattr(error, "problem_mark", None) or getattr(error, "mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""

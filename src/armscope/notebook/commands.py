@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
+from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
@@ -38,11 +40,9 @@ from armscope.poses.choose import Choice, choose
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
 from armscope.recordings.first_lines import is_motion_table
-from armscope.recordings.motions import Motions
+from armscope.recordings.folders import table_in
 from armscope.robot import Arm, load_arm
 
-Robot = Arm | Path | str
-Table = Recordings | Motions | pd.DataFrame | Path | str
 Model = Diagnosed | MotionDiagnosed | FittedModel | Path | str
 
 
@@ -64,7 +64,7 @@ def read_recordings(recordings: Table, robot: Robot | None = None, measured: boo
     """A recordings table.
 
     Args:
-        recordings: the path of a CSV, or a data frame with its columns.
+        recordings: the path of a CSV or of a folder with recordings.csv, or a data frame with its columns.
         robot: whose motors must be there; None takes as many as the table has.
         measured: whether points must be there; False reads poses.
 
@@ -85,7 +85,7 @@ def read_recordings(recordings: Table, robot: Robot | None = None, measured: boo
     if Path(recordings).suffix in (".yaml", ".yml", ".urdf"):
         cure = "The recordings come first, then the robot, as on the command line."
         raise InputError(recordings, "", "no table", "a recordings table is needed here", cure)
-    return read_table(recordings, n_motors, measured)
+    return read_table(table_in(Path(recordings)), n_motors, measured)
 
 
 def check(recordings: Table, robot: Robot | None = None) -> CheckReport | MotionCheck:
@@ -94,6 +94,7 @@ def check(recordings: Table, robot: Robot | None = None) -> CheckReport | Motion
     Raises:
         InputError: a file can't be used.
     """
+    robot, recordings = arm_of(robot, recordings), table_of(recordings)
     if of_motion(recordings):
         return check_motions(recordings, None if robot is None else _described(robot))
     arm = None if robot is None else read_robot(robot)
@@ -101,13 +102,13 @@ def check(recordings: Table, robot: Robot | None = None) -> CheckReport | Motion
 
 
 def diagnose(
-    recordings: Table, robot: Robot, settings: Settings | None = None, **options: Any
+    recordings: Table, robot: Robot | None = None, settings: Settings | None = None, **options: Any
 ) -> Diagnosed | MotionDiagnosed:
     """Where simulation and recordings differ, and which physics was left out: `armscope diagnose`.
 
     Args:
-        recordings: the table, of points or of motions.
-        robot: the nominal arm.
+        recordings: the table, of points or of motions, or a folder with it.
+        robot: the nominal arm; robot.yaml of a folder if left out.
         settings: all settings at once, or
         options: some of them by name, see `armscope.diagnosis.Settings` (``seed=1, resamples=0``); of a table of
             motions `armscope.motion.pipeline.MotionSettings` (``cutoff=8.0``).
@@ -120,23 +121,22 @@ def diagnose(
     """
     if settings is not None and options:
         raise InputError("diagnose", "", sorted(options)[0], "settings, or single options: one of the two")
+    robot, recordings = arm_for(robot, recordings), table_of(recordings)
     if of_motion(recordings):
         with threadpool_limits(1):
             return diagnose_moving(recordings, _described(robot), **options)
-    known = set(Settings.__dataclass_fields__)
-    if wrong := sorted(set(options) - known):
-        raise InputError("diagnose", "", wrong[0], f"one of {', '.join(sorted(known))}")
+    refuse_unknown("diagnose", options, [each.name for each in fields(Settings)])
     table, arm = read_recordings(recordings), read_robot(robot)
     with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
         return Diagnosed(**vars(diagnose_arm(arm, table, settings or Settings(**options))))
 
 
-def calibrate(recordings: Table, robot: Robot, **options: Any) -> Calibration:
+def calibrate(recordings: Table, robot: Robot | None = None, **options: Any) -> Calibration:
     """Plain geometric calibration: `armscope calibrate`.
 
     Args:
-        recordings: the table.
-        robot: the nominal arm.
+        recordings: the table, or a folder with it.
+        robot: the nominal arm; robot.yaml of a folder if left out.
         options: of `armscope.calibration.calibrate` (``level="offsets", robust=True``).
 
     Returns:
@@ -145,6 +145,8 @@ def calibrate(recordings: Table, robot: Robot, **options: Any) -> Calibration:
     Raises:
         InputError: something that can't be used.
     """
+    refuse_unknown("calibrate", options, options_of(calibrate_arm))
+    robot = arm_for(robot, recordings)
     table, arm = read_recordings(recordings, robot), read_robot(robot)
     with threadpool_limits(1):
         return calibrate_arm(arm, table, **options)
@@ -194,6 +196,7 @@ def compensate(
     Raises:
         InputError: something that can't be used.
     """
+    refuse_unknown("compensate", options, [each.name for each in fields(Options)])
     chosen = Options(**options)
     if isinstance(model, str | Path) and str(model).endswith(".json"):
         error_model: ErrorModel = load_error_model(model)
@@ -209,12 +212,14 @@ def compensate(
     return compensate_physical(fitted, identified, _wanted(path, fitted.arm), chosen)
 
 
-def compare(*recordings: Table, robot: Robot, names: Sequence[str] = (), of_arms: bool = False) -> Comparison:
+def compare(
+    *recordings: Table, robot: Robot | None = None, names: Sequence[str] = (), of_arms: bool = False
+) -> Comparison:
     """What changed between two or more recordings of one arm: `armscope compare`.
 
     Args:
-        recordings: in the order of time.
-        robot: the nominal arm.
+        recordings: in the order of time; tables, or folders with them.
+        robot: the nominal arm; robot.yaml of the first folder if left out.
         names: of the recordings; else their files' or numbers.
         of_arms: they are of several arms of one type: which is unlike the others.
 
@@ -224,7 +229,9 @@ def compare(*recordings: Table, robot: Robot, names: Sequence[str] = (), of_arms
     Raises:
         InputError: something that can't be used.
     """
-    arm = read_robot(robot)
+    if not recordings:
+        raise InputError("compare", "", "no recordings", "two or more of one arm are compared")
+    arm = read_robot(arm_for(robot, recordings[0]))
     named = list(names) or [
         str(each) if isinstance(each, str | Path) else f"{n}" for n, each in enumerate(recordings, 1)
     ]
@@ -278,4 +285,5 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
     Raises:
         InputError: something that can't be used.
     """
+    refuse_unknown("choose_poses", options, options_of(choose))
     return choose(read_robot(robot), count, **options)

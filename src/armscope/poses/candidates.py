@@ -17,6 +17,8 @@ from armscope.robot import Arm
 MOST_DRAWN = 40
 """At most this many poses are drawn per candidate wanted."""
 LARGEST_GRID = 500_000
+WORTH_FREEING = 0.05
+"""Share of possible poses from which an option that would leave them is named: twice what `MOST_DRAWN` asks for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +72,40 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
         kept, drawn, found = [*kept, possible], drawn + count, found + len(possible)
     poses = np.concatenate(kept)[:count]
     if len(poses) < count:
-        most = max(refused, key=lambda reason: refused[reason])
-        raise InputError(
-            "--candidates", "", f"{len(poses)} possible poses of {drawn} drawn", f"{count} are wanted; most: {most}",
-            "Check --tracker, --floor-mm and --radius-mm (mm in the arm's base frame) and the joint limits.",
-        )  # fmt: skip
+        told = f"{len(poses)} possible poses of {drawn} drawn, and {count} are wanted"
+        raise _too_few(arm, told, max(refused, key=lambda reason: refused[reason]), angles, around)
     return Candidates(_pose_rows(poses, np.random.default_rng(seed + 1), payload_kg), drawn, refused)
+
+
+def _too_few(arm: Arm, told: str, most: str, last: Array, around: Surroundings) -> InputError:
+    """That hardly any pose is possible, at the option without which many of them would be.
+
+    Args:
+        arm: the arm.
+        told: how many are.
+        most: which of `REASONS` refused most; a pose that hits itself may stand below the floor, too.
+        last: (N, m) some of those drawn, rad.
+        around: what refuses poses.
+
+    Returns:
+        The error.
+    """
+    best, option, value, why = 0.0, "", np.empty(0), most
+    if around.floor is not None:
+        best, option = _possible(arm, last, replace(around, floor=None)), "--floor-mm"
+        value, why = np.array([around.floor]), REASONS[1]
+    if around.tracker is not None and (share := _possible(arm, last, replace(around, tracker=None))) > best:
+        best, option, value, why = share, "--tracker", around.tracker, REASONS[2]
+    if best < WORTH_FREEING:
+        cure = "Check the joint limits, --radius-mm, --floor-mm and --tracker (mm in the arm's base frame)."
+        return InputError(arm.name, "", told, f"most: {most}", cure)
+    found = ",".join(f"{each * 1e3:g}" for each in value.tolist())
+    rule = f"{told}; most: {why}; without this option {best:.0%} of them would be possible"
+    return InputError(option, "", found, rule, "It is in mm, in the arm's base frame.")
+
+
+def _possible(arm: Arm, angles: Array, around: Surroundings) -> float:
+    return float(np.mean(refusals(arm, angles, around) == ""))
 
 
 def _pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:

@@ -20,7 +20,7 @@ from armscope.recordings.columns import (
     Names,
     column_named,
 )
-from armscope.recordings.textfile import WORDS
+from armscope.recordings.textfile import WORDS, cell_as_written
 from armscope.recordings.wrong_cells import how_to_mend, how_to_scale
 
 if TYPE_CHECKING:
@@ -61,8 +61,10 @@ class ColumnReader:
         self._check_range(column, numbers)
         if required and np.isnan(numbers).any():
             row = int(np.flatnonzero(np.isnan(numbers))[0])
+            word = cell_as_written(self.source, row, list(self.table.columns).index(column))
+            found = f"nothing, written {word!r}" if word else "nothing"
             raise self._error(
-                row, column, "nothing", "this value is required in every row", "Remove the row or fill it in."
+                row, column, found, "this value is required in every row", "Remove the row or fill it in."
             )
         return numbers
 

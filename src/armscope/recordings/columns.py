@@ -265,7 +265,22 @@ class Names:
                 cure = nearest(missing, [name for name in self.columns if name not in present])
                 raise self._error(f"no column {missing}", "x, y and z come together, in one unit", cure)
         if measured:
-            moving = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."
-            cure = moving if is_motion(list(self.columns)) else nearest("x_mm", self.columns)
-            raise self._error("no column x_mm", "measured positions stand in x_mm, y_mm, z_mm (or _m)", cure)
+            self._refuse_motion()
+            rule, cure = "measured positions stand in x_mm, y_mm, z_mm (or _m)", nearest("x_mm", self.columns)
+            raise self._error("no column x_mm", rule, cure)
         return []
+
+    def _refuse_motion(self) -> None:
+        """Where there are no points: a table of an arm in motion, or one of which nothing but angles was recorded.
+
+        Raises:
+            InputError: it is either.
+        """
+        points = "measured positions stand in x_mm, y_mm, z_mm (or _m)"
+        if is_motion(list(self.columns)):
+            cure = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."
+            raise self._error("no column x_mm", points, cure)
+        if set(self.columns) <= {"id", "run", "time_s"} | {name for name in self.columns if re.match("d?q[1-9]", name)}:
+            found = "no columns x_mm, y_mm, z_mm, and neither tau1_nm nor current1_a"
+            cure = "Angles alone tell nothing: which of both was recorded? A motion may have current1_a, ..., instead."
+            raise self._error(found, f"{points}; of a motion, torques stand in tau1_nm, ...", cure)

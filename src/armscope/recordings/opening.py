@@ -9,7 +9,7 @@ import zlib
 from pathlib import Path
 from typing import IO, cast
 
-from armscope.core.inputs import InputError, note_read, why_unreadable
+from armscope.core.inputs import InputError, note_read, unreadable, why_unreadable
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -41,6 +41,9 @@ def start_of(path: Path, what: str) -> bytes:
             _refuse_bombs(path, what)
             with gzip.open(path) as packed:
                 start = packed.read(LONGEST_SIGNATURE)
+    except IsADirectoryError as error:
+        found, cure = unreadable(path, error, (".csv", ".csv.gz"))
+        raise InputError(path, "", found, f"{what} is needed here", cure) from error
     except (OSError, EOFError, zlib.error) as error:
         raise InputError(path, "", "no readable file", f"{what} is needed here", why_unreadable(error)) from error
     return start

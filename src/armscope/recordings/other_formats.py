@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Sequence
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
@@ -18,8 +19,11 @@ _TO_CSV = "Save it as CSV: a first line with the columns' names, then a row per 
 def by_hand(names: Sequence[str], file: str) -> str:
     """What to do about a file of whose columns none looks like an angle or a point."""
     if {"a", "alpha", "d"} <= {name.strip().lower() for name in names}:
-        return f"D-H rows? `armscope init - -o robot.yaml < {file}` reads them."
-    return "Write the mapping by hand: docs/bring-your-recordings.md; of a program, write a table."
+        return f"D-H rows? `armscope init - -o robot.yaml < {shlex.quote(file)}` reads them."
+    return (
+        "Write the mapping by hand: docs/bring-your-recordings.md shows one of points and one of motions. If this is a "
+        "robot's program, write its poses as a table first."
+    )
 
 
 def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:
@@ -27,13 +31,18 @@ def what_it_is(header: Sequence[str], file: str) -> tuple[str, str, str] | None:
 
     Args:
         header: the first line's cells.
-        file: the file's name, for the command that converts it.
+        file: the file, as the user named it, for the command that converts it.
 
     Returns:
         What was found, what is allowed and how to mend it; None where the line may name columns.
     """
     line = ",".join(header).strip()
-    by_draft = f"`armscope init {file} -o mapping.yaml` drafts how to read it, `armscope import` converts it."
+    if file.endswith((".yaml", ".yml")):
+        cure = "A robot.yaml is given by --robot, a mapping.yaml by `armscope import --mapping`."
+        return f"YAML, {line[:40]!r}", "tables are CSV", cure
+    by_draft = (
+        f"`armscope init {shlex.quote(file)} -o mapping.yaml` drafts how to read it, `armscope import` converts it."
+    )
     if "\0" in line:
         return "zero bytes, as in UTF-16", "tables are UTF-8 text", "Save it as UTF-8."
     if line.startswith(("{", "[{", "[[")) or line in ("[", "{"):

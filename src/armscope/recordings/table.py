@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     import pandas as pd  # slow to import
 
 
+NO_RUNS = "The table names no runs (column run): without --run all of its rows are taken."
+
+
 @dataclass(frozen=True, eq=False)
 class Recordings:
     """N measured points of an arm with m motors; SI units; NaN where a context value was not recorded.
@@ -111,7 +114,8 @@ class Recordings:
         known = set(self.run.tolist())
         for run in runs:
             if run not in known:
-                raise InputError(self.source, "column run", run, "no row has this run", nearest(run, known))
+                cure = nearest(run, known) or NO_RUNS
+                raise InputError(self.source, "column run", run, "no row has this run", cure)
         kept = np.isin(self.run, [*runs]) if runs else np.ones(len(self), dtype=bool)
         if first_id is not None:
             kept &= [text.isdecimal() and int(text) >= first_id for text in self.id]

@@ -7,7 +7,7 @@ import csv
 import io
 import zlib
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -88,6 +88,27 @@ def _read(path: Path, header: list[str], pieces: list[Piece]) -> pd.DataFrame:
         return pd.concat(each_piece(pieces, read_piece), ignore_index=True)
     with open_text(path, "utf-8") as stream:
         return pd.concat(pd.read_csv(stream, chunksize=ROWS_PER_PIECE, **how), ignore_index=True)
+
+
+def cell_as_written(source: Path | str, row: int, column: int) -> str:
+    """What stands in a cell whose word was taken for no value: "NaN", "n/a"; or "" where it is empty.
+
+    Args:
+        source: the file; a table that was read from none has no such word.
+        row: of the table, from 0.
+        column: from 0.
+
+    Returns:
+        The word, without blanks around it.
+    """
+    if not isinstance(source, Path):
+        return ""
+    try:
+        with open_text(source, "utf-8") as stream:
+            cells = next(islice(csv.reader(stream), row + 1, None), [])
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error, zlib.error):
+        return ""
+    return cells[column].strip() if column < len(cells) else ""
 
 
 def _is_word(header: str) -> bool:
@@ -198,7 +219,7 @@ def _why_ragged(count: int, width: int) -> str:
 
 
 def _check_header(path: Path, header: list[str]) -> None:
-    if other := what_it_is(header, path.name):
+    if other := what_it_is(header, str(path)):
         raise InputError(path, "line 1", *other)
     if len(header) > MOST_COLUMNS:
         raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")

@@ -31,7 +31,7 @@ class Drawing:
     width: float
     height: float
     alt: str = ""
-    _shapes: list[tuple[float, str]] = field(default_factory=list)
+    _shapes: list[tuple[float, str]] = field(default_factory=list, repr=False)
 
     def add(self, shape: str, order: float = 0.0) -> None:
         """A shape as SVG."""

@@ -33,6 +33,8 @@ LARGEST_RATIO = 1000.0
 """Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
 ROUNDED = 1e-3
 """Inertias in files are rounded: the sum of two principal ones may fall short of the third by this share."""
+ROUNDED_AWAY = 1e-12
+"""Of the largest: so far below zero a principal inertia of zero is computed."""
 
 MOST_INERTIA_KG_M2 = 1e6
 """Of a link: the heaviest arm's whole mass (11,000 kg) at its reach (4.7 m) is 2.4e5 kg m2."""
@@ -74,6 +76,26 @@ class DH(Strict):
     )
 
 
+def no_inertia_of_a_body(xx: float, yy: float, zz: float, xy: float, xz: float, yz: float) -> str:
+    """Why no body has this inertia.
+
+    Args:
+        xx: about x through the centre of mass, kg m2, and so on
+        yy: about y,
+        zz: about z,
+        xy: of x and y,
+        xz: of x and z,
+        yz: of y and z.
+
+    Returns:
+        The rule that it breaks; "" where it breaks none beyond rounding. That of a point, all zeros, breaks none.
+    """
+    least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if least >= -ROUNDED_AWAY * most and least + middle >= most * (1 - ROUNDED):
+        return ""
+    return f"no body has principal inertias {least:.4g}, {middle:.4g}, {most:.4g}: none < 0, none above the others' sum"
+
+
 class LinkMass(Strict):
     """Mass and centre of mass in the link's D-H frame (for ``tool_load``: in the last frame).
 
@@ -93,11 +115,9 @@ class LinkMass(Strict):
     @classmethod
     def _of_a_body(cls, value: tuple[float, ...] | None) -> tuple[float, ...] | None:
         if value is not None:
-            xx, yy, zz, xy, xz, yz = value
-            least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            if least < 0 or least + middle < most * (1 - ROUNDED):
-                principal = f"{least:.4g}, {middle:.4g}, {most:.4g}"
-                raise ValueError(f"no body has principal inertias {principal}: none < 0, none above the others' sum")
+            said = no_inertia_of_a_body(*value)
+            if said:
+                raise ValueError(said)
         return value
 
 

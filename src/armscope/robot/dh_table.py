@@ -25,6 +25,8 @@ USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 METRES_UP_TO = 10.0
 """Lengths whose largest is below this are metres: an arm's longest link is above 10 mm and below 10 m."""
 RADIANS_UP_TO = 2 * math.pi + 1e-3
+AS_WRITTEN_RAD = 2e-3
+"""pi/2 and pi written with two digits differ from themselves by so much."""
 LONGEST_CELL = 64
 """Characters: what is longer is no number and no heading, and isn't worth looking through."""
 MOST_CELLS = 32
@@ -69,6 +71,8 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
     if names is USUAL:
         source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0])} numbers in a row)"
     length = units.get("length") or _guess_length(rows, source)
+    if "angle" not in units:
+        _refuse_mixed_angles(rows, [number for number, _ in lines])
     angle = units.get("angle") or _guess_angle(rows, source)
     source["dh convention"] = "stated" if convention == "modified" else "guessed: standard; --modified says Craig's"
     joints = [_in_file_units(row, length, angle) for row in rows]
@@ -157,6 +161,32 @@ def _guess_angle(rows: Sequence[dict[str, float]], source: dict[str, str]) -> st
     unit = "rad" if 0 < most < RADIANS_UP_TO else "deg"
     source["dh angles"] = f"guessed: {unit}, since the largest is {most:g}"
     return unit
+
+
+def _refuse_mixed_angles(rows: Sequence[dict[str, float]], numbers: Sequence[int]) -> None:
+    """Quarter turns in radians beside angles that can only be degrees: whichever unit is guessed, some are wrong.
+
+    Args:
+        rows: the table's.
+        numbers: the lines that they stand in.
+
+    Raises:
+        InputError: there are both.
+    """
+    angles = [
+        (number, name.partition("_")[0], row.get(name, 0.0))
+        for number, row in zip(numbers, rows, strict=True)
+        for name in ("alpha_deg", "theta_offset_deg")
+    ]
+    line, name, most = max(angles, key=lambda each: abs(each[2]))
+    if abs(most) < RADIANS_UP_TO:
+        return
+    for number, word, value in angles:
+        quarters = round(value / (math.pi / 2))
+        if quarters and abs(value - quarters * math.pi / 2) < AS_WRITTEN_RAD and abs(value) < RADIANS_UP_TO:
+            rule = f"this is {90 * quarters} degrees in radians, where {name} of line {line}, {most:g}, is in degrees"
+            cure = f"Write {90 * quarters}, or say the unit in a header: a [mm], alpha [deg], d [mm], theta [deg]."
+            raise InputError("D-H table", f"line {number}, {word}", f"{value:.6g}", rule, cure)
 
 
 def _in_file_units(row: dict[str, float], length: str, angle: str) -> dict[str, float]:

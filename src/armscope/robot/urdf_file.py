@@ -4,27 +4,19 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-
 from armscope.core.inputs import InputError, nearest, note_read
-from armscope.core.types import Array
-from armscope.robot.description import HEAVIEST_KG, LONGEST_MM
+from armscope.robot.urdf_checks import refuse_contradictions
 
-JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "planar", "floating")
 TURNING = ("revolute", "continuous")
 FEWEST_JOINTS = 2
 """Turning joints of what may be an arm."""
 TOOL_NAMES = ("tool0", "tool", "tcp", "tool_link", "tool_frame", "flange", "ee_link", "end_effector", "ee")
 """What the link that carries the tool is usually called, the commonest first (ROS-Industrial's convention)."""
 
-
-MOST_JOINTS = 500
-"""Of a whole robot; the humanoid with the most, hands included, has fewer than 100."""
 HANDS = ("gripper", "finger")
 """Joints of these names open a hand; the arm ends before them."""
 
@@ -60,7 +52,7 @@ def root_of(path: str) -> ET.Element:
             found = element.tag.rpartition("}")[2]
             rule = "macros must be expanded first"
             raise InputError(path, f"<{found}>", "a xacro file", rule, "`xacro arm.urdf.xacro > arm.urdf` does it.")
-    _check(path, root)
+    refuse_contradictions(path, root)
     return root
 
 
@@ -98,99 +90,6 @@ def _with_prefixes_bound(path: str, content: bytes, error: ET.ParseError) -> byt
     except ET.ParseError as other:
         raise _no_xml(path, error if "unbound" in str(other) else other) from error
     return mended
-
-
-def _check(path: str, root: ET.Element) -> None:
-    """Names, references, numbers and the tree; the first thing that is wrong becomes an `InputError`."""
-    links = [element.get("name", "") for element in root.findall("link")]
-    joints = root.findall("joint")
-    if len(joints) > MOST_JOINTS:
-        raise InputError(path, "", f"{len(joints)} joints", f"no robot has more than {MOST_JOINTS}")
-    if not links:
-        raise InputError(path, "", "no <link>", "a URDF has links and joints", "Is it a file of macros or settings?")
-    for kind, names in (("link", links), ("joint", [joint.get("name", "") for joint in joints])):
-        for name, count in Counter(names).items():
-            if not name or count > 1:
-                rule = "every one needs a name of its own"
-                raise InputError(path, f"{kind} {name}".rstrip(), f"{count} of that name" if name else "no name", rule)
-    parents = Counter(child for joint in joints for child in _ends(path, joint, links)[1:])
-    for name, count in parents.items():
-        if count > 1:
-            raise InputError(path, f"link {name}", f"child of {count} joints", "a URDF is a tree: no closed loops")
-    roots = [name for name in links if name not in parents]
-    if len(roots) != 1:
-        found = f"{len(roots)} links without parent" + (f": {', '.join(roots[:5])}" if roots else "")
-        raise InputError(path, "", found, "all links must hang together, from one root", "Is a joint missing?")
-    for joint in joints:
-        _check_joint(path, joint)
-    for link in root.findall("link"):
-        _check_mass(path, link)
-
-
-def _ends(path: str, joint: ET.Element, links: list[str]) -> list[str]:
-    ends = []
-    for role in ("parent", "child"):
-        element = joint.find(role)
-        name = "" if element is None else element.get("link", "")
-        if name not in links:
-            place = f"joint {joint.get('name')}, {role}"
-            raise InputError(path, place, name or "nothing", "no link of that name", nearest(name, links))
-        ends.append(name)
-    return ends
-
-
-def _check_joint(path: str, joint: ET.Element) -> None:
-    place, kind = f"joint {joint.get('name')}", joint.get("type", "nothing")
-    if kind not in JOINT_TYPES:
-        raise InputError(path, f"{place}, type", kind, "no such type", nearest(kind, JOINT_TYPES))
-    for tag, key in (("origin", "xyz"), ("origin", "rpy"), ("axis", "xyz")):
-        element = joint.find(tag)
-        words = None if element is None else element.get(key)
-        if words is None:
-            continue
-        numbers = _numbers(path, f"{place}, {tag} {key}", words, 3)
-        if key == "xyz" and np.abs(numbers).max() > LONGEST_MM / 1e3:
-            rule = f"no joint stands further than {LONGEST_MM / 1e3:g} m from the one before"
-            raise InputError(path, f"{place}, {tag} xyz", words, rule, "URDFs are in metres.")
-        if tag == "axis" and kind not in ("fixed", "floating") and not numbers.any():
-            raise InputError(path, f"{place}, axis", words, "an axis needs a direction")
-    for tag, keys in (("limit", ("lower", "upper", "effort", "velocity")), ("mimic", ("multiplier", "offset"))):
-        for key, words in () if (element := joint.find(tag)) is None else element.items():
-            if key in keys:
-                _numbers(path, f"{place}, {tag} {key}", words, 1)
-    if kind in ("revolute", "prismatic"):
-        limit = joint.find("limit")
-        for key in ("effort", "velocity"):
-            if limit is None or limit.get(key) is None:
-                rule = f'a {kind} joint needs <limit lower="..." upper="..." effort="..." velocity="..."/>'
-                cure = "A joint that turns without end is `continuous`." if kind == "revolute" else ""
-                raise InputError(path, place, "no <limit>" if limit is None else f"no {key} in <limit>", rule, cure)
-
-
-def _check_mass(path: str, link: ET.Element) -> None:
-    element = link.find("inertial/mass")
-    words = None if element is None else element.get("value")
-    if words is None:
-        return
-    place = f"link {link.get('name')}, mass"
-    try:
-        mass = float(words)
-    except ValueError as error:
-        raise InputError(path, place, words, "a mass is a number of kg") from error
-    if not 0 <= mass <= HEAVIEST_KG:
-        raise InputError(path, place, words, f"0 to {HEAVIEST_KG:g} kg: the heaviest arm that is sold weighs 11,000 kg")
-
-
-def _numbers(path: str, place: str, words: str, count: int) -> Array:
-    """So many finite numbers; a single one, a limit, may be infinite."""
-    try:
-        numbers = np.array([float(word) for word in words.split()])
-    except ValueError:
-        numbers = np.array([])
-    known = ~np.isnan(numbers) if count == 1 else np.isfinite(numbers)
-    if numbers.shape != (count,) or not known.all():
-        raise InputError(path, place, words, "a number" if count == 1 else "three finite numbers")
-    return numbers
 
 
 def guess_chain(path: str, root: ET.Element, tip: str | None = None) -> GuessedChain:
@@ -278,7 +177,22 @@ def _last_link(path: str, ways: dict[str, list[ET.Element]], slides: bool) -> tu
     ]
     if beyond and not slides:
         why += f"; joint {beyond[0].get('name')}, which slides behind it, is taken for no part of the arm"
+    without = next((said for way in ways.values() if (said := _without_motor(way, shared[-1]))), "")
+    why += f"; {without}" if without else ""
     return tip, f"{tip}, {why}"
+
+
+def _without_motor(way: list[ET.Element], last: ET.Element) -> str:
+    """Which joint behind the last that turns ends the arm, as no motor of its own turns it; "" where none does."""
+    for joint in way[way.index(last) + 1 :] if last in way else ():
+        name, kind, mimic = joint.get("name"), joint.get("type"), joint.find("mimic")
+        if any(word in str(name).lower() for word in HANDS):
+            return ""
+        if mimic is not None:
+            return f"joint {name} behind it mimics {mimic.get('joint')}, so that no motor of its own turns it"
+        if kind in ("floating", "planar"):
+            return f"joint {name} behind it is {kind}, which no motor turns: make it `revolute` or `fixed` in the file"
+    return ""
 
 
 def _body(ways: dict[str, list[ET.Element]], turning: list[ET.Element]) -> list[str]:

@@ -19,7 +19,7 @@ from armscope.recordings.columns import (
 )
 from armscope.recordings.importing.checked_values import check_lengths, refuse_values, required, scalar, whole
 from armscope.recordings.importing.formats import Column, Time
-from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors
+from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors, RunColumn
 from armscope.recordings.importing.pieces import Piece
 from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
 
@@ -70,6 +70,29 @@ class Clock:
         return stamps
 
 
+def runs_of_rows(piece: Piece, group: RunColumn | None, own: str) -> list[str]:
+    """Of which run each row of a piece is.
+
+    Args:
+        piece: N rows.
+        group: the column that says so, if there is one.
+        own: the run's name where there is none.
+
+    Returns:
+        N names.
+
+    Raises:
+        InputError: a row has no name there.
+    """
+    if group is None:
+        return [own] * len(piece)
+    runs = piece.words(group.column)
+    if "" in runs:
+        cure = "Write the run there, or leave such rows out: `rows: [{drop_missing: [...]}]`."
+        raise piece.error(runs.index(""), (group.column,), "nothing", "every row is of a run", cure)
+    return runs
+
+
 class Converter:
     """The columns of the recordings table from those of a run; remembers its ids."""
 
@@ -81,7 +104,7 @@ class Converter:
         """A piece in the columns of the recordings table that the run has."""
         columns = self.columns
         assert columns.angles is not None
-        runs = self._runs(piece)
+        runs = runs_of_rows(piece, columns.run, self.run)
         table: dict[str, object] = {"id": self._ids(piece), "run": runs}
         if columns.target is not None:
             table["target"] = _label(piece, columns.target)
@@ -93,16 +116,6 @@ class Converter:
         if columns.reflectors is not None:
             return by_reflector(piece, columns.reflectors, pd.DataFrame(table))
         return pd.DataFrame(table | self._measured(piece))
-
-    def _runs(self, piece: Piece) -> list[str]:
-        if self.columns.run is None:
-            return [self.run] * len(piece)
-        column = self.columns.run.column
-        runs = piece.words(column)
-        if "" in runs:
-            cure = "Write the run there, or leave such rows out: `rows: [{drop_missing: [...]}]`."
-            raise piece.error(runs.index(""), (column,), "nothing", "every row is of a run", cure)
-        return runs
 
     def _ids(self, piece: Piece) -> list[str]:
         numbers = piece.rows.numbers_of_rows

@@ -13,10 +13,18 @@ from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import QUATERNION
 from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
-from armscope.recordings.importing.first_table import ForeignTable, first_table
+from armscope.recordings.importing.first_table import (
+    ForeignTable,
+    below_name,
+    column_list,
+    first_table,
+    printable,
+    quoted,
+)
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
+from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
 
 FEWEST_MOTORS = 2
@@ -53,27 +61,29 @@ def draft_mapping(path: Path | str) -> str:
     """The text of a mapping.yaml that reads this file, with a comment on every guess.
 
     Raises:
-        InputError: it is no text table, or no columns look like motor angles and points.
+        InputError: it is no text table, or no columns look like motor angles and points (or a motion's torques).
     """
     path = Path(path)
     table = first_table(path)
     columns = list(_guess_columns(path, table))
-    angles = _motor_columns(table)
+    angles = motor_columns(table)
     reflectors = points_of(table, taken=angles)
     needed = [*angles, *(reflectors[0] if len(reflectors) == 1 else [])]
-    unused = [name for name in table.names if table.header and not any(_quoted(name) in line for line in columns)]
+    unused = [name for name in table.names if table.header and not any(quoted(name) in line for line in columns)]
     needed += _closed_by_words(table, [table.names.index(name) for name in unused])
-    lines = [*_format_lines(table), "columns:", *columns, *_row_lines(table, needed)]
+    lines = [*format_lines(table), "columns:", *columns, *row_lines(table, needed)]
     if unused:
-        shown = ", ".join(_quoted(_printable(name)) for name in unused[:MOST_NAMED])
+        shown = ", ".join(quoted(printable(name)) for name in unused[:MOST_NAMED])
         lines += [f"# not used: {shown}{', ...' * (len(unused) > MOST_NAMED)}"]
-    head = f"# A draft for {path.name}: read every guess, mend it where it is wrong, then"
-    text = "\n".join([head, _NEXT, *lines, ""])
+    text = "\n".join([HEAD.format(printable(path.name), "recordings.csv"), *lines, ""])
     validate(Mapping, yaml.safe_load(text), path)
     return text
 
 
-_NEXT = "# armscope import TABLE --mapping mapping.yaml -o recordings.csv"
+HEAD = (
+    "# A draft for {}: read every guess, mend it where it is wrong, then\n"
+    "# armscope import TABLE --mapping mapping.yaml -o {}"
+)
 
 
 def _closed_by_words(table: ForeignTable, columns: Sequence[int]) -> list[int]:
@@ -84,7 +94,8 @@ def _closed_by_words(table: ForeignTable, columns: Sequence[int]) -> list[int]:
     return [column for column in columns if 0 < lacking[column] <= few and not known[-lacking[column] :, column].any()]
 
 
-def _format_lines(table: ForeignTable) -> Iterator[str]:
+def format_lines(table: ForeignTable) -> Iterator[str]:
+    """How the table is cut, as a mapping says it."""
     stated = {"delimiter": table.delimiter, "decimal": table.decimal}
     parts = [f'{key}: "{value}"' for key, value in stated.items()]
     parts += ["header: false"] if not table.header else []
@@ -94,32 +105,33 @@ def _format_lines(table: ForeignTable) -> Iterator[str]:
     of_numbers = np.flatnonzero(2 * np.isfinite(table.values).sum(axis=0) > len(table.values))
     words = table.words(of_numbers.tolist())
     words = [word for word in words if word.isprintable() and word not in TextFormat().missing]
-    listed = ", ".join(_quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
+    listed = ", ".join(quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
     parts += [f"missing: [{listed}]"] if words else []
-    why = f"; {', '.join(_quoted(_printable(word)) for word in words[:MOST_NAMED])}: no value" if words else ""
+    why = f"; {', '.join(quoted(printable(word)) for word in words[:MOST_NAMED])}: no value" if words else ""
     yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it{why}"
 
 
-def _row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
+def row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
     """Rows without angles or points are left out, and which is said."""
     lacking = np.isnan(table.values[:, needed])
     if lacking.any():
-        listed = _listed(table, [needed[column] for column in np.unique(np.argwhere(lacking)[:, 1]).tolist()])
+        listed = column_list(table, [needed[column] for column in np.unique(np.argwhere(lacking)[:, 1]).tolist()])
         yield "rows:"
         yield f"- drop_missing: {listed}   # guessed: {lacking.any(axis=1).sum()} rows have none there"
 
 
 def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
-    angles = _motor_columns(table)
+    angles = motor_columns(table)
     reflectors = points_of(table, taken=angles)
     points = [column for point in reflectors for column in point]
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
         if not found:
             seen, line = ", ".join(table.names[:12]), f"line {table.skip + 1}"
-            raise InputError(path, line, seen, f"no columns look like {what}", by_hand(table.names, path.name))
+            rule = f"no columns look like {what}, nor like time, angles and torques or currents of a motion"
+            raise InputError(path, line, seen, rule, by_hand(table.names, str(path)))
     numbers = table.values[:, angles]
     largest = _largest(numbers)
-    stated = stated_unit(table.names[angles[0]], _below(table, angles[0]), ANGLE_UNITS)
+    stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
     unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
@@ -127,24 +139,19 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     of_ur = angles == _ur_joints(table)
     why += "; the joints of a UR, from the base on" if of_ur else ""
     why += "; no numbers in the names: in the table's order" if unnumbered and not of_ur else ""
-    yield f"  angles: {{columns: {_listed(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
+    yield f"  angles: {{columns: {column_list(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
-    stated = stated_unit(table.names[points[0]], _below(table, points[0]), LENGTH_UNITS)
+    stated = stated_unit(table.names[points[0]], below_name(table, points[0]), LENGTH_UNITS)
     unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     why += "; columns by likeness of names"
     if len(reflectors) == 1:
-        yield f"  position: {{columns: {_listed(table, points)}, unit: {unit}}}   # {why}"
+        yield f"  position: {{columns: {column_list(table, points)}, unit: {unit}}}   # {why}"
     else:
-        targets = ", ".join(f"p{n}: {_listed(table, point)}" for n, point in enumerate(reflectors, 1))
+        targets = ", ".join(f"p{n}: {column_list(table, point)}" for n, point in enumerate(reflectors, 1))
         why += "; guessed: reflectors of one tool, all seen at each pose. Else say position: {columns: [x, y, z]}"
         yield f"  reflectors: {{targets: {{{targets}}}, unit: {unit}}}   # {why}"
     yield from _further(table, len(angles), {*angles, *points}, of_one_point=len(reflectors) == 1)
-
-
-def _below(table: ForeignTable, column: int) -> str:
-    """What a line of units says of a column; "" where there is none."""
-    return table.units[column] if table.units else ""
 
 
 def _largest(values: Array) -> float:
@@ -152,22 +159,7 @@ def _largest(values: Array) -> float:
     return float(np.abs(known).max()) if len(known) else 0.0
 
 
-def _listed(table: ForeignTable, columns: Sequence[int]) -> str:
-    if not table.header:
-        return "[" + ", ".join(str(column + 1) for column in columns) + "]"
-    return "[" + ", ".join(_quoted(table.names[column]) for column in columns) + "]"
-
-
-def _quoted(name: str) -> str:
-    return "'" + name.replace("'", "''") + "'"
-
-
-def _printable(name: str) -> str:
-    """A name that ends no comment and breaks no line."""
-    return "".join(sign if sign.isprintable() else "?" for sign in name)
-
-
-def _numbered(table: ForeignTable) -> dict[str, dict[int, int]]:
+def numbered_columns(table: ForeignTable) -> dict[str, dict[int, int]]:
     """Columns that are numbered, by what stands before the number: {word: {number: column}}."""
     groups: dict[str, dict[int, int]] = {}
     for column, name in enumerate(table.names):
@@ -215,21 +207,22 @@ def _named_joints(table: ForeignTable) -> list[int]:
     return [column for column in known if not set(_words(table.names[column])) & others]
 
 
-def _in_a_row(group: dict[int, int]) -> list[int]:
+def in_a_row(group: dict[int, int]) -> list[int]:
     """The columns numbered 1, 2, ... (or 0, 1, ...) without a gap; none where there are fewer than an arm has."""
     start = 0 if 0 in group else 1
     count = next(n for n in range(start, start + len(group) + 1) if n not in group) - start
     return [group[start + n] for n in range(count)] if count >= FEWEST_MOTORS else []
 
 
-def _motor_columns(table: ForeignTable) -> list[int]:
+def motor_columns(table: ForeignTable) -> list[int]:
+    """The columns that look like motor angles, from the base on; none where none do."""
     if not table.header:
         return _leading(table)
     ranked = []
-    for word, group in _numbered(table).items():
+    for word, group in numbered_columns(table).items():
         parts = [part for part in re.split(r"[^a-z]+", word) if part]
         others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
-        columns = _in_a_row(group)
+        columns = in_a_row(group)
         if not columns or not set(parts) & set(ANGLE_WORDS) or set(parts) & (others - set(ANGLE_WORDS)):
             continue
         commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
@@ -254,10 +247,11 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
     for group, columns in _per_motor(table, n_motors, taken).items():
         unit = ", unit: rad/s" if group == "speed" else ""
         say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
-        yield f"  {group}: {{columns: {_listed(table, columns)}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
+        listed = column_list(table, columns)
+        yield f"  {group}: {{columns: {listed}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     if of_one_point and all(part in small for part in QUATERNION):
-        listed = _listed(table, [small[part] for part in QUATERNION])
+        listed = column_list(table, [small[part] for part in QUATERNION])
         yield f"  orientation: {{quaternion: {listed}, order: wxyz}}   # guessed by name"
     singles = {
         "temperature": (r"temp(erature)?([\s_.\[(]*(°?c|degc))?[\])]?", "temperature: {{column: {}}}"),
@@ -267,13 +261,16 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
     }
     run = next((column for name, column in small.items() if re.fullmatch(RUNS, name)), None)
     if run is not None and not _all_different(table.values[:, run]):
-        yield f"  run: {{column: {_quoted(table.names[run])}}}   # guessed by name: of which run each row is"
+        yield f"  run: {{column: {quoted(table.names[run])}}}   # guessed by name: of which run each row is"
     for what, (pattern, line) in singles.items():
         match = next((column for name, column in small.items() if re.fullmatch(pattern, name)), None)
         if what == "target" and not of_one_point:
             continue
+        if what == "target" and match is not None and number_the_rows([row[match] for row in table.cells]):
+            yield f"  # no target: {quoted(printable(table.names[match]))}, which differs from row to row"
+            continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
-            yield f"  {line.format(_quoted(table.names[match]))}   # guessed by name"
+            yield f"  {line.format(quoted(table.names[match]))}   # guessed by name"
 
 
 def _all_different(numbers: Array) -> bool:
@@ -283,9 +280,9 @@ def _all_different(numbers: Array) -> bool:
 
 def _per_motor(table: ForeignTable, n_motors: int, taken: set[int]) -> dict[str, list[int]]:
     found: dict[str, list[int]] = {}
-    for word, group in _numbered(table).items():
+    for word, group in numbered_columns(table).items():
         parts = {part for part in re.split(r"[^a-z]+", word) if part}
-        columns = _in_a_row(group)
+        columns = in_a_row(group)
         for name, words in BESIDE.items():
             if parts & set(words) and len(columns) == n_motors and not taken & set(columns):
                 found.setdefault(name, columns)

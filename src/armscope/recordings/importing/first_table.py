@@ -136,3 +136,25 @@ def _plain(cell: str, decimal: str) -> str:
 def _value(cell: str, decimal: str) -> float:
     plain = _plain(cell, decimal)
     return float(plain) if NUMBER.fullmatch(plain) else np.nan
+
+
+def below_name(table: ForeignTable, column: int) -> str:
+    """What a line of units says of a column; "" where there is none."""
+    return table.units[column] if table.units else ""
+
+
+def column_list(table: ForeignTable, columns: Sequence[int]) -> str:
+    """Columns as mappings list them: by name, or counted from 1."""
+    if not table.header:
+        return "[" + ", ".join(str(column + 1) for column in columns) + "]"
+    return "[" + ", ".join(quoted(table.names[column]) for column in columns) + "]"
+
+
+def quoted(name: str) -> str:
+    """A name as YAML takes it whatever it holds."""
+    return "'" + name.replace("'", "''") + "'"
+
+
+def printable(name: str) -> str:
+    """A name that ends no comment and breaks no line."""
+    return "".join(sign if sign.isprintable() else "?" for sign in name)

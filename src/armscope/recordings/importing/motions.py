@@ -13,12 +13,13 @@ from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import ABSOLUTE_ZERO_C
 from armscope.recordings.importing.checked_values import required, scalar
-from armscope.recordings.importing.conversion import Clock, as_columns
+from armscope.recordings.importing.conversion import Clock, as_columns, runs_of_rows
 from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
 from armscope.recordings.importing.mapping import (
     Groups,
     Mapping,
     PerMotor,
+    RunColumn,
     RunFiles,
     Scalar,
     refuse_runs_of_one_name,
@@ -58,6 +59,8 @@ class MotionColumns(Groups):
     current: Efforts | None = None
     payload: Scalar | None = None
     temperature: Scalar | None = None
+    temperatures: PerMotor | None = None
+    run: RunColumn | None = None
 
     def check(self, of_run: str) -> None:
         """Make sure that nothing needed is missing.
@@ -69,8 +72,10 @@ class MotionColumns(Groups):
             raise ValueError(f"a motion needs `time` and `positions`{of_run}")
         if (self.torque is None) == (self.current is None):
             raise ValueError(f"what the motors did is `torque` or `current`, one of the two{of_run}")
+        if self.temperature is not None and self.temperatures is not None:
+            raise ValueError(f"`temperature` is the arm's, `temperatures` has one per motor: one of the two{of_run}")
         motors = len(self.positions.columns)
-        for name in ("speeds", "torque", "current"):
+        for name in ("speeds", "torque", "current", "temperatures"):
             group = getattr(self, name)
             if group is not None and len(group.columns) != motors:
                 raise ValueError(f"`{name}` names {len(group.columns)} columns for {motors} motors{of_run}")
@@ -105,8 +110,8 @@ class MotionMapping(Strict):
         names: dict[str, None] = {}
         for columns in stated:
             names |= dict.fromkeys(motion_columns(columns))
-        last = ("payload_kg", "temperature_c")
-        return [*(name for name in names if name not in last), *(name for name in last if name in names)]
+        last = [name for name in names if name == "payload_kg" or name.startswith("temperature")]
+        return [*(name for name in names if name not in last), *sorted(last, key=lambda name: name != "payload_kg")]
 
 
 def motion_columns(columns: MotionColumns) -> list[str]:
@@ -119,7 +124,8 @@ def motion_columns(columns: MotionColumns) -> list[str]:
     sliding = np.full(len(motors), unit == "m")
     names += torque_columns(sliding) if columns.torque is not None else [f"current{j}_a" for j in motors]
     names += ["payload_kg"] * (columns.payload is not None)
-    return names + ["temperature_c"] * (columns.temperature is not None)
+    names += ["temperature_c"] * (columns.temperature is not None)
+    return names + [f"temperature{j}_c" for j in motors] * (columns.temperatures is not None)
 
 
 class MotionConverter:
@@ -135,8 +141,9 @@ class MotionConverter:
         assert columns.positions is not None
         effort = columns.torque or columns.current
         assert effort is not None
+        runs = runs_of_rows(piece, columns.run, self.run)
         values = [
-            self.clock.time(piece, columns.time, [self.run] * len(piece))[:, None],
+            self.clock.time(piece, columns.time, runs)[:, None],
             _scaled(piece, columns.positions),
         ]
         if columns.speeds is not None:
@@ -147,9 +154,10 @@ class MotionConverter:
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
             values.append(scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)[:, None])
-        return pd.DataFrame(
-            {"run": [self.run] * len(piece)} | as_columns(motion_columns(columns)[1:], np.hstack(values))
-        )
+        for column in () if columns.temperatures is None else columns.temperatures.columns:
+            rule = "no temperature is below absolute zero"
+            values.append(scalar(piece, Scalar(column=column), ABSOLUTE_ZERO_C, rule)[:, None])
+        return pd.DataFrame({"run": runs} | as_columns(motion_columns(columns)[1:], np.hstack(values)))
 
 
 def _scaled(piece: Piece, group: MotorPositions | Velocities) -> Array:

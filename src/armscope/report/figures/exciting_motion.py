@@ -47,5 +47,6 @@ def _title(found: Excitation) -> str:
     if found.pairs:
         told = f"least separation {found.before.value:.2f} (random) to {found.after.value:.2f}"
     else:
-        told = f"condition number {found.before.condition:.0f} (random) to {found.after.condition:.0f}"
+        told = f"log determinant {found.before.value:.1f} (random) to {found.after.value:.1f}"
+        told += f", condition number {found.before.condition:.0f} to {found.after.condition:.0f}"
     return f"{found.arm.name}: {told}"

@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from armscope.cli import app
-from armscope.cli.folders import others_than, robot_for, robot_in, table_in
 from armscope.core.inputs import InputError
+from armscope.recordings.folders import others_than, robot_for, robot_in, table_in
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

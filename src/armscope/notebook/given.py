@@ -1,0 +1,65 @@
+"""What is given to a command as a function: folders in place of tables, arms left out, options that it has not."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Collection, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from armscope.core.inputs import InputError, nearest
+from armscope.recordings import Recordings
+from armscope.recordings.folders import robot_for, robot_in, table_in
+from armscope.recordings.motions import Motions
+from armscope.robot import Arm
+
+Robot = Arm | Path | str
+Table = Recordings | Motions | pd.DataFrame | Path | str
+
+
+def table_of(recordings: Table) -> Table:
+    """The table itself where a folder was given."""
+    return table_in(Path(recordings)) if isinstance(recordings, str | Path) else recordings
+
+
+def arm_of(robot: Robot | None, recordings: Table) -> Robot | None:
+    """The arm as said, else that of a folder that was given for a table; None where there is none."""
+    return robot_in(Path(recordings)) if robot is None and isinstance(recordings, str | Path) else robot
+
+
+def arm_for(robot: Robot | None, recordings: Table) -> Robot:
+    """The arm as said, else that of a folder that was given for a table.
+
+    Raises:
+        InputError: there is none.
+    """
+    if robot is None and isinstance(recordings, str | Path):
+        return robot_for(None, Path(recordings))
+    if robot is None:
+        rule = "the nominal arm must be known: a robot.yaml, a URDF or an arm"
+        raise InputError("robot", "", "nothing", rule, "The recordings come first, then the robot.")
+    return robot
+
+
+def options_of(function: Callable[..., Any]) -> list[str]:
+    """The options of a function: what comes after an arm and a table or a count."""
+    return list(inspect.signature(function).parameters)[2:]
+
+
+def refuse_unknown(command: str, options: Collection[str], known: Sequence[str]) -> None:
+    """Options that a command does not have.
+
+    Args:
+        command: its name.
+        options: those given.
+        known: those that it has.
+
+    Raises:
+        InputError: there is one.
+    """
+    for name in sorted(set(options) - set(known)):
+        rule = f"an option of {command} is one of {', '.join(sorted(known))}"
+        close = nearest(name, known)
+        raise InputError(command, "", name, rule, close if close.startswith("Did") else "")
