@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
-from armscope.motion.summary.holding_out import Entered
+from armscope.motion.summary.entering import Entered
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sections.motion_work import error_in_words, where_it_shows
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot

@@ -97,12 +97,8 @@ class LibraryRules(Constants):
     knots_of_bend: int = constant(4, "of a curve that bends once", "derived: the least spline", unit="columns")
     knots_of_others: int = constant(7, "of other free curves", "judgement: a few bends", unit="columns")
     knots_of_time: int = constant(4, "of a drift", "judgement: a cubic; faster is no drift", unit="columns")
-    least_warming_k: float = constant(
-        2.0, "by which a temperature must change to show anything", "judgement: sensors' own error", unit="K"
-    )
-    least_running_s: float = constant(
-        10.0, "in which friction may change by itself", "judgement: gears of less have no time to warm", unit="s"
-    )
+    least_warming_k: float = constant(2.0, "by which a temperature must change", "judgement: sensors' error", unit="K")
+    least_running_min: float = constant(0.2, "in which friction may change", "judgement: no gear warms in less")
     still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
     powers: tuple[float, ...] = constant(
         (1 / 3, 1 / 2, 2 / 3, 3 / 2, 2.0, 3.0),

@@ -32,18 +32,17 @@ from armscope.motion.samples.spikes import without_spikes
 from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
+from armscope.motion.summary.entering import Entered, as_entered
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
-    Entered,
-    Fold,
     HeldOutTorque,
-    as_entered,
     errors_by_run,
     folds,
     held_out_in_words,
     held_out_torques,
     measure,
     own_fold,
+    that_others_tell,
     waterfall,
 )
 from armscope.motion.summary.identifiable import identifiable, little_excited
@@ -248,7 +247,7 @@ def _judged(
         parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
     held = held_out_torques(parts)
     by_run = errors_by_run(held)
-    parts, held, alone = _that_others_tell(selected, parts, held)
+    parts, held, alone = that_others_tell(selected, parts, held)
     what += f", but for {', '.join(alone)}, of whose own load no other run knows" if alone else ""
     held_out = replace(measure(held, what), by_run=by_run)
     explained, by_masses = shares_of(selected)
@@ -281,20 +280,6 @@ def _judged(
         runs=(),
     )
     return verdict, held, as_entered(selected, parts, order)
-
-
-def _that_others_tell(
-    selected: SelectedCauses, parts: list[Fold], held: tuple[HeldOutTorque, ...]
-) -> tuple[list[Fold], tuple[HeldOutTorque, ...], list[str]]:
-    """Without runs that have a cause of their own, unless all have; and these runs' names."""
-    placed = (selected.rows.layout.placed[number] for number in selected.best.candidates)
-    own = {run for cause in placed for run in cause.runs}
-    alone = [n for n, fold in enumerate(parts) if set(fold.rows.run[fold.which].tolist()) <= own]
-    if not alone or len(alone) == len(parts):
-        return parts, held, []
-    kept = [n for n in range(len(parts)) if n not in alone]
-    names = [str(parts[n].rows.run[parts[n].which][0]) for n in alone]
-    return [parts[n] for n in kept], tuple(held[n] for n in kept), names
 
 
 def _masses_off(selected: SelectedCauses) -> float:

@@ -14,7 +14,7 @@ from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.clauses_of_changes import spells
-from armscope.motion.library.laws import RUNNING
+from armscope.motion.library.warmth import RUNNING
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches

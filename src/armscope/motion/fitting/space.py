@@ -229,4 +229,4 @@ def _at_all_temperatures(cause: PlacedCause) -> Cause | None:
     """What a friction that changes with temperature contains where it has a constant part."""
     if cause.cause is not catalogue.TEMPERATURE_FRICTION or cause.width == 1:
         return None
-    return catalogue.VISCOUS if cause.variant.startswith("viscous") else catalogue.COULOMB
+    return catalogue.VISCOUS if cause.variant == "viscous" else catalogue.COULOMB

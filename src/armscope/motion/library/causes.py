@@ -187,7 +187,7 @@ class Seen:
         effort: (m,) RMS of the recorded torque.
         time: (2,) s, first and last, of the longest run.
         temperature: (m, 2) deg C, or None.
-        running_s: s that all runs take together.
+        running_min: min that all runs take together.
         runs: names in order.
         moving: (m,) whether each joint moves.
         motion_hz: above which nothing of the motion is seen for noise.
@@ -205,7 +205,7 @@ class Seen:
     effort: Array
     time: Array
     temperature: Array | None
-    running_s: float
+    running_min: float
     runs: tuple[str, ...]
     moving: NDArray[np.bool_]
     regressor: Array

@@ -20,6 +20,7 @@ from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
 from armscope.motion.library.read_late import delayed, low_passed
 from armscope.motion.library.sides import side
+from armscope.motion.library.warmth import RUNNING, warm, warmth, while_running
 from armscope.motion.library.waves import wave
 from armscope.motion.samples.preparation import without_lag
 
@@ -78,42 +79,14 @@ def _power(
     return bent if viscous else np.column_stack([bent, speed])
 
 
-def warmth(m: Moment, joint: int) -> Array:
-    """(N,) deg C of a joint; whoever uses a law of it has made sure that it is recorded."""
-    assert m.signals.temperature is not None
-    return m.signals.temperature[:, joint]
+def _over_time(of: Callable[..., Array], changes: Callable[..., Array]) -> Callable[..., Array]:
+    """Friction of one kind that changes with the temperature, or while the arm runs."""
 
+    def columns(m: Moment, joints: tuple[int, ...], *numbers: float) -> Array:
+        own, others = (numbers[:1], numbers[1:]) if of is _side else ((), numbers)
+        return changes(m, joints[0], of(m, joints, *own), *others)
 
-def _warm_speed(m: Moment, joints: tuple[int, ...], middle: float, constant: float = 0.0) -> Array:
-    return _warm(m, joints, _speed(m, joints), middle, constant)
-
-
-def _warm_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, constant: float = 0.0) -> Array:
-    return _warm(m, joints, _side(m, joints, width), middle, constant)
-
-
-def _running_speed(m: Moment, joints: tuple[int, ...], middle: float, constant: float = 0.0) -> Array:
-    return _while_running(m, _speed(m, joints), middle, constant)
-
-
-def _running_side(m: Moment, joints: tuple[int, ...], width: float, middle: float, constant: float = 0.0) -> Array:
-    return _while_running(m, _side(m, joints, width), middle, constant)
-
-
-def _while_running(m: Moment, friction: Array, middle: float, constant: float) -> Array:
-    """Friction times the minutes since the middle of what was recorded; as at its end where nobody knows them.
-
-    An arm in use is warm.
-    """
-    minutes = np.full(len(friction), 2 * middle) if m.signals.running is None else m.signals.running / MINUTE_S
-    changing = (minutes - middle) * friction
-    return np.column_stack([changing, friction]) if constant else changing
-
-
-def _warm(m: Moment, joints: tuple[int, ...], friction: Array, middle: float, constant: float) -> Array:
-    """With ``constant``, what friction is off at the middle temperature, too: nobody knows at which it was stated."""
-    changing = (warmth(m, joints[0]) - middle) * friction
-    return np.column_stack([changing, friction]) if constant else changing
+    return columns
 
 
 def _spring(m: Moment, joints: tuple[int, ...], middle: float) -> Array:
@@ -199,9 +172,6 @@ CLINGING = ("clinging over torques", "clinging over smooth torques")
 READ_LATE = ("delayed torque", "low-passed torque")
 FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", *READ_LATE, *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
-RUNNING = ("speed while running", "side while running")
-"""Laws of how long the arm has run, which is known of the motion alone to which they were fitted."""
-MINUTE_S = 60.0
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
 
@@ -285,10 +255,10 @@ LAWS: dict[str, Callable[..., Array]] = {
     "stribeck": _stribeck,
     "load friction": _load_side,
     "power of speed": _power,
-    "warm speed": _warm_speed,
-    "warm side": _warm_side,
-    RUNNING[0]: _running_speed,
-    RUNNING[1]: _running_side,
+    "warm speed": _over_time(_speed, warm),
+    "warm side": _over_time(_side, warm),
+    RUNNING[0]: _over_time(_speed, while_running),
+    RUNNING[1]: _over_time(_side, while_running),
     "torque": _read,
     "delayed torque": delayed,
     "low-passed torque": low_passed,

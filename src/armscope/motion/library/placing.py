@@ -14,13 +14,14 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause, Seen
 from armscope.motion.library.clauses import ALL_JOINTS
-from armscope.motion.library.laws import MINUTE_S, RUNNING, Law
+from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.powers import with_power
 from armscope.motion.library.read_late import LATE_BY_ORDER
 from armscope.motion.library.sides import coulomb_width, sharp_width
+from armscope.motion.library.warmth import RUNNING
 from armscope.robot.dynamics import MovingArm
 
 
@@ -56,10 +57,7 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
     at = _Joint(seen, j)
     if at.both_ways:
         yield from _friction(at)
-        if seen.temperature is not None and np.ptp(seen.temperature[j]) > LIBRARY.least_warming_k:
-            yield from _warmth(at, seen.temperature[j])
-        elif len(seen.runs) > 1 and seen.running_s > LIBRARY.least_running_s:
-            yield from _warming(at, seen.running_s / MINUTE_S / 2)
+        yield from _warming(at)
     yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
     for delay in LIBRARY.delays_s:
         how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
@@ -166,34 +164,31 @@ def _curved(at: _Joint) -> Iterator[PlacedCause]:
     yield from (with_power(any_power, power, at.seen.arm.sliding[at.number]) for power in LIBRARY.powers)
 
 
-def _warmth(at: _Joint, limits: Array) -> Iterator[PlacedCause]:
-    middle, cause, driver = float(np.mean(limits)), catalogue.TEMPERATURE_FRICTION, "temperature"
-    dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
-    viscous = (("per_kelvin", f"{at.torque} s/({at.unit} K)"), ("viscous", f"{at.torque} s/{at.unit}"))
-    yield at.cause(
-        cause, driver, viscous[: 1 + viscous_stated], "warm speed", middle, viscous_stated, variant="viscous"
-    )
-    dry = (("dry_per_kelvin", f"{at.torque}/K"), ("dry", at.torque))[: 1 + dry_stated]
-    yield at.cause(cause, driver, dry, "warm side", at.sharp, middle, dry_stated, variant="dry")
-    yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
-
-
-def _warming(at: _Joint, middle: float) -> Iterator[PlacedCause]:
-    """Friction that changes while the arm runs: gears warm up, and nobody recorded how warm they were.
+def _warming(at: _Joint) -> Iterator[PlacedCause]:
+    """Friction that changes with the temperature, or while the arm runs where nobody recorded how warm it was.
 
     Not within one run: what its first part tells of time, its last part is the farther from the longer it goes on.
     """
-    dry_stated, viscous_stated = np.isfinite(at.seen.arm.stated_background[at.number, 1:3])
-    viscous = (("per_minute", f"{at.torque} s/({at.unit} min)"), ("viscous", f"{at.torque} s/{at.unit}"))
-    dry = (("dry_per_minute", f"{at.torque}/min"), ("dry", at.torque))
-    for parameters, stated, law, variant in (
-        (viscous, viscous_stated, (RUNNING[0], middle), "viscous while running"),
-        (dry, dry_stated, (RUNNING[1], at.sharp, middle), "dry while running"),
+    seen = at.seen
+    stated = np.isfinite(seen.arm.stated_background[at.number, 1:3])
+    limits = None if seen.temperature is None else seen.temperature[at.number]
+    if limits is not None and np.ptp(limits) > LIBRARY.least_warming_k:
+        middle, driver, per, laws = float(np.mean(limits)), "temperature", ("kelvin", "K"), ("warm speed", "warm side")
+    elif len(seen.runs) > 1 and seen.running_min > LIBRARY.least_running_min:
+        middle, driver, per, laws = seen.running_min / 2, "running time", ("minute", "min"), RUNNING
+    else:
+        return
+    speed = f"{at.torque} s/{at.unit}"
+    viscous = ((f"per_{per[0]}", f"{at.torque} s/({at.unit} {per[1]})"), ("viscous", speed))
+    dry = ((f"dry_per_{per[0]}", f"{at.torque}/{per[1]}"), ("dry", at.torque))
+    for variant, names, off, law in (
+        ("viscous", viscous, stated[1], (laws[0],)),
+        ("dry", dry, stated[0], (laws[1], at.sharp)),
     ):
-        numbers = (*law, stated)
-        yield at.cause(
-            catalogue.TEMPERATURE_FRICTION, "running time", parameters[: 1 + stated], *numbers, variant=variant
-        )
+        cause = catalogue.TEMPERATURE_FRICTION
+        yield at.cause(cause, driver, names[: 1 + off], *law, middle, off, variant=variant)
+    if driver == "temperature" and limits is not None:
+        yield at.curve(catalogue.CURVE, driver, limits, LIBRARY.knots_of_others, variant=driver)
 
 
 def _drive(at: _Joint) -> PlacedCause:

@@ -41,7 +41,7 @@ def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
         effort=np.maximum(np.sqrt(np.mean(np.concatenate([s.effort for s in stretches]) ** 2, axis=0)), 1e-9),
         time=np.array([min(s.time[0] for s in stretches), max(s.time[-1] for s in stretches)]),
         temperature=np.percentile(np.concatenate(warm), [0.1, 99.9], axis=0).T if warm else None,
-        running_s=_running_s(stretches),
+        running_min=_running_min(stretches),
         runs=runs,
         moving=np.asarray(np.ptp(q, axis=0) > still),
         regressor=regressor.reshape(-1, len(arm.inertial)),
@@ -49,9 +49,9 @@ def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
     )
 
 
-def _running_s(stretches: Sequence[Stretch]) -> float:
-    """Seconds until the last of them ends, from when the arm began to run."""
-    return max((float(each.running[-1]) for each in stretches if each.running is not None), default=0.0)
+def _running_min(stretches: Sequence[Stretch]) -> float:
+    """Minutes until the last of them ends, from when the arm began to run."""
+    return max((float(each.running[-1]) for each in stretches if each.running is not None), default=0.0) / 60
 
 
 def _both_sides(stretches: Sequence[Stretch]) -> NDArray[np.bool_] | None:

@@ -14,7 +14,6 @@ from armscope.inference.normal_equations import total
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
-from armscope.motion.fitting.gains import gain_of
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.fitting.space import of_joints
@@ -23,7 +22,6 @@ from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes import gate_of
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.for_a_while import there
-from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
 from armscope.motion.verdict import HeldOutMotion, Step, relative
 
 
@@ -130,11 +128,34 @@ class HeldOutTorque:
     @property
     def in_motion(self) -> Array:
         """(K, m) what was measured while a joint moves, 0 where it stands or a pause holds it."""
-        return _moving(self.rows, self.which, self.measured)
+        return moving_torque(self.rows, self.which, self.measured)
 
     def missed(self, said: Array) -> Array:
-        """(K, m) what torques (K, m) leave of the measured ones while a joint moves; see `_missed`."""
-        return _missed(self.rows, self.which, self.measured - said)
+        """(K, m) what torques (K, m) leave of the measured ones while a joint moves; see `missed_torque`."""
+        return missed_torque(self.rows, self.which, self.measured - said)
+
+
+def that_others_tell(
+    selected: SelectedCauses, parts: list[Fold], held: tuple[HeldOutTorque, ...]
+) -> tuple[list[Fold], tuple[HeldOutTorque, ...], list[str]]:
+    """Without runs that have a cause of their own, unless all have; and these runs' names.
+
+    Args:
+        selected: the selection.
+        parts: what is held out in turn.
+        held: the torques of each.
+
+    Returns:
+        What is left of both, and the names.
+    """
+    placed = (selected.rows.layout.placed[number] for number in selected.best.candidates)
+    own = {run for cause in placed for run in cause.runs}
+    alone = [n for n, fold in enumerate(parts) if set(fold.rows.run[fold.which].tolist()) <= own]
+    if not alone or len(alone) == len(parts):
+        return parts, held, []
+    kept = [n for n in range(len(parts)) if n not in alone]
+    names = [str(parts[n].rows.run[parts[n].which][0]) for n in alone]
+    return [parts[n] for n in kept], tuple(held[n] for n in kept), names
 
 
 def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
@@ -236,73 +257,41 @@ def _held_near(selected: SelectedCauses) -> str:
     return f"{' and '.join(['masses'] * masses + ['torque constants'] * gains)} near the stated"
 
 
-@dataclass(frozen=True)
-class Entered:
-    """An error on held-out motion once some numbers are entered: of all torque, and of each joint's own."""
-
-    whole: float
-    by_joint: tuple[float, ...]
-
-
-def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int]) -> tuple[Entered, ...]:
-    """Errors when the whole model's numbers are entered into a simulator one after the other, nothing fitted again.
-
-    No simulator knows how friction changes sides here, nor takes friction below zero: both are left out.
-
-    Args:
-        selected: the selection.
-        parts: what is held out; the numbers are fitted to the rest.
-        order: candidates in the order in which they are entered.
-
-    Returns:
-        With friction and rotors; then with masses and gains as fitted; then with each cause more.
-    """
-    layout, best = selected.rows.layout, selected.best
-    own = layout.own.reshape(-1, OWN)[:, 1:CAUSES_OF_OWN]
-    causes = [layout.columns[number] for number in order]
-    friction = np.setdiff1d(own, np.concatenate([np.empty(0, dtype=np.intp), *causes]))
-    masses = np.setdiff1d([*layout.masses, *layout.gains], np.concatenate([np.empty(0, dtype=np.intp), *causes]))
-    states = [friction, *(np.concatenate([friction, masses, *causes[:n]]) for n in range(len(causes) + 1))]
-    missed: list[list[Array]] = [[] for _ in states]
-    torques: list[Array] = []
-    for fold in parts:
-        fitted = coefficients_of(fold.problem, evaluate(fold.problem, best.chosen, best.background, fold.found.noise))
-        stated = np.nan_to_num(layout.arm.stated_background[:, 1:3])
-        fitted[own[:, :2]] = np.maximum(fitted[own[:, :2]], -stated)
-        torque = fold.rows.torque[fold.which]
-        torques.append(_moving(fold.rows, fold.which, torque))
-        for columns, found in zip(states, missed, strict=True):
-            entered = np.zeros_like(fitted)
-            entered[columns] = fitted[columns]
-            rows = replace(fold.rows, gain=gain_of(layout, entered))
-            said = rows.nominal[fold.which] + rows.modelled(entered, fold.which)
-            found.append(_missed(fold.rows, fold.which, torque - said))
-    torque = np.concatenate(torques)
-    return tuple(_entered(np.concatenate(found), torque) for found in missed)
-
-
-def _entered(left: Array, torque: Array) -> Entered:
-    return Entered(relative(left, torque), tuple(map(relative, left.T, torque.T)))
-
-
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
     """(residuals, torque) of the fold's rows with causes fitted on its sums."""
     fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
     torque = fold.rows.torque[fold.which]
     left = torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)
-    return _missed(fold.rows, fold.which, left), _moving(fold.rows, fold.which, torque)
+    return missed_torque(fold.rows, fold.which, left), moving_torque(fold.rows, fold.which, torque)
 
 
-def _moving(rows: MotionRows, which: Indices, torque: Array) -> Array:
-    """Torques (K, m) of some rows while joints move, 0 elsewhere."""
+def moving_torque(rows: MotionRows, which: Indices, torque: Array) -> Array:
+    """Torques of some rows while joints move, 0 elsewhere.
+
+    Args:
+        rows: of the table.
+        which: (K,) their numbers in it.
+        torque: (K, m) N m (N).
+
+    Returns:
+        (K, m).
+    """
     return np.where(rows.moving[which], torque, 0.0)
 
 
-def _missed(rows: MotionRows, which: Indices, left: Array) -> Array:
+def missed_torque(rows: MotionRows, which: Indices, left: Array) -> Array:
     """What a model leaves (K, m) of some rows while joints move, without what forces that hold them make of it.
 
     A row beside a pause holds a share of such a force, which no model foretells: as in the fit, it tells nothing.
+
+    Args:
+        rows: of the table.
+        which: (K,) their numbers in it.
+        left: (K, m) what the model leaves of them, N m (N).
+
+    Returns:
+        (K, m).
     """
     whole = np.zeros(rows.torque.shape)
     whole[which] = left
-    return _moving(rows, which, rows.without_pauses(whole)[which])
+    return moving_torque(rows, which, rows.without_pauses(whole)[which])

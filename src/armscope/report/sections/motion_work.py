@@ -15,7 +15,7 @@ from armscope.motion.export import URDF
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
-from armscope.motion.summary.holding_out import Entered
+from armscope.motion.summary.entering import Entered
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
