@@ -11,7 +11,7 @@ from tests.motion.moving import moved, robot
 
 def test_what_is_wrong_at_one_joint_shows_in_its_error_when_its_cause_is_entered() -> None:
     offset = lambda q, dq, ddq, rigid: np.column_stack([0 * dq[:, :2], np.full(len(dq), 4.0)])
-    found = diagnose_motion(robot(), moved(robot(), 6, offset, seconds=6.0), MotionSettings(cutoff=10.0))
+    found = diagnose_motion(robot(), moved(robot(), 7, offset, seconds=6.0), MotionSettings(cutoff=10.0))
     (cause,) = found.verdict.effects
     assert (cause.effect, cause.location) == ("torque_offset", "joint 3")
     _, before, after = found.entered
