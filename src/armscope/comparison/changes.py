@@ -4,8 +4,9 @@ Linear about the nominal arm. Shared by all recordings: every effect of the libr
 by a prior of some millimetres at the tool (what no data tell apart stays small). Of each recording's own: base and
 tool. A change is one effect more in some of the recordings. Its F statistic beside all that is shared says how likely
 chance makes it; the smallest of all, times their number (Bonferroni), is the joint test that nothing changed. While it
-is below the level, the likeliest of the sure ones is taken in and the rest are tested beside it. What differs between
-halves of one recording, where nothing changed, makes all of them less sure (`armscope.comparison.dispersion`).
+is below the level, those are named that are sure beside each other and explain the rows best together
+(`armscope.comparison.search`). What differs between halves of one recording, where nothing changed, makes all of them
+less sure (`armscope.comparison.dispersion`).
 """
 
 from __future__ import annotations
@@ -21,8 +22,10 @@ from armscope.comparison.dispersion import Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
+from armscope.comparison.search import likeliest_changes
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import Possible, SharedModel
+from armscope.comparison.standing import stands
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.physics.geometric import JOINT_OFFSET
@@ -51,23 +54,10 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     families = of_same_poses(list(recordings.values()))
     everything = model.possible_changes(_masks(families, of_arms))
     seen = _seen(model, everything)  # of one change alone, so before recordings are weighed without those found
-    possible = list(everything)
-    taken: list[Possible] = []
-    found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
-    joint, tried = 1.0, len(possible)
-    while possible and len(taken) < COMPARING.changes:
-        scores = model.scores(possible, taken)
-        p = min(1.0, min(score.p for score in scores) * tried)
-        joint = p if not taken else joint
-        if p > COMPARING.level:
-            break
-        sure = [each for each, score in enumerate(scores) if score.p * tried <= COMPARING.level]
-        best = max(sure, key=lambda each: scores[each].nats)
-        found.append((possible[best], scores[best], _as_good(possible, scores, best)))
-        taken.append(possible.pop(best))
-        model.weigh_recordings(taken)
+    tried = len(everything)
+    joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     names = tuple(recordings)
-    changes = tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found)
+    taken, changes = _named(model, everything, names)
     return Comparison(
         arm=arm.name,
         names=names,
@@ -83,6 +73,30 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         changes=changes,
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
+
+
+def _named(
+    model: SharedModel, everything: Sequence[Possible], names: Sequence[str]
+) -> tuple[list[Possible], tuple[Change, ...]]:
+    """The changes that explain the rows best and can stand as they are told, the likeliest first.
+
+    A name that cannot stand stood for others that did: without it, they are looked for again.
+    """
+    possible, tried = list(everything), len(everything)
+    while True:
+        taken = likeliest_changes(model, possible, tried)
+        ranked = []
+        for each in taken:
+            others = [other for other in taken if other is not each]
+            rest = [other for other in possible if other not in others]
+            scores = model.scores(rest, others)
+            ranked.append((scores[rest.index(each)], each, _as_good(rest, scores, rest.index(each))))
+        ranked.sort(key=lambda of: -of[0].nats)
+        changes = [_change(model, each, score.p, alike, taken, names) for score, each, alike in ranked]
+        cannot = [of[1] for of, change in zip(ranked, changes, strict=True) if not stands(model, of[1], change, tried)]
+        if not cannot:
+            return taken, tuple(changes)
+        possible.remove(cannot[-1])
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
