@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
+from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.dispersion import Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
@@ -165,18 +166,20 @@ def _change(
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))
     contrast = inside / inside.sum() - outside / outside.sum()
     parameters = []
-    for place, term in enumerate(found.placed.terms):
-        at = place + q * np.arange(len(names))
+    for number, term in enumerate(found.placed.terms):
+        at = number + q * np.arange(len(names))
         difference = float(contrast @ values[at])
         error = float(np.sqrt(contrast @ covariance[np.ix_(at, at)] @ contrast))
         half = float(stdtrit(free, 0.975)) * error
         parameters.append(_valued(term, values[at], covariance[np.ix_(at, at)], (difference, half)))
-    rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
+    change = contrast @ values.reshape(len(names), q)
+    rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
     kind = _kind(parameters, inside, outside)
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
-    return Change(found.placed.name, found.placed.location, title, where, held, kind, rms, p, numbers, others, until)
+    place = found.placed.name, found.placed.location, title
+    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -212,8 +215,9 @@ def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDAr
     before, after = np.mean(values[outside]), np.mean(values[inside])
     was = abs(before) > INTERVAL * np.sqrt(np.mean(errors[outside] ** 2))
     is_now = abs(after) > INTERVAL * np.sqrt(np.mean(errors[inside] ** 2))
-    if was != is_now:
+    more = abs(after) > abs(before)
+    if was != is_now and is_now == more:
         return "came" if is_now else "went"
-    if not was or before * after < 0:  # how large it is in all of them may be open where its change is not
+    if not (was and is_now) or before * after < 0:  # how large it is in all of them may be open where its change is not
         return "changed"
-    return "grew" if abs(after) > abs(before) else "shrank"
+    return "grew" if more else "shrank"

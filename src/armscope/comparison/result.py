@@ -64,6 +64,8 @@ class Change:
         parameters: in every recording.
         alternatives: causes that explain the change as well (evidence within 20 to 1).
         until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
+        left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
+        taken_back_mm: the same if the change were taken back. Where that is more, they have less of it than others.
     """
 
     effect: str
@@ -77,6 +79,18 @@ class Change:
     parameters: tuple[Valued, ...]
     alternatives: tuple[str, ...]
     until: str = ""
+    left_mm: float = math.nan
+    taken_back_mm: float = math.nan
+
+    @property
+    def is_less(self) -> bool:
+        """Whether there is less of the cause where it changed, so that taking the change back would bring it again."""
+        return self.kind in ("went", "shrank") or (self.kind == "changed" and self.taken_back_mm >= self.left_mm)
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether there is more of it, and still to take it back alone brings the tool no nearer."""
+        return self.kind in ("came", "grew") and self.taken_back_mm >= self.left_mm
 
     @property
     def title_with_doubt(self) -> str:

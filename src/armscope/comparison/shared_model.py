@@ -241,13 +241,6 @@ class SharedModel:
         variance, free = self._left(design, held)
         return values, self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :], free
 
-    def moved_mm(self, possible: Possible, change: Array) -> float:
-        """What a change by (q,) SI units moves the tool beyond what frames absorb: RMS of the distance, mm."""
-        moved = self.columns_of(possible.number, possible.sets) @ change
-        moved = moved - self.frames @ np.linalg.lstsq(self.frames, moved, rcond=None)[0]
-        there = np.isin(self.group, possible.sets)
-        return float(np.sqrt(np.sum((moved / self.weight)[there] ** 2) / (there.sum() / 3)))
-
     def _of(self, numbers: Array, number: int) -> Array:
         """An effect's part of numbers that stand one per term."""
         return numbers[self._at(number)]
