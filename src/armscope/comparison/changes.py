@@ -54,7 +54,6 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     model = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
     everything = model.possible_changes(_masks(families, of_arms))
-    seen = _seen(model, everything)  # of one change alone, so before recordings are weighed without those found
     tried = len(everything)
     joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     names = tuple(recordings)
@@ -69,7 +68,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
-        seen=seen,
+        seen=_seen(model, everything, taken),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
@@ -94,7 +93,9 @@ def _named(
             ranked.append((scores[rest.index(each)], each, _as_good(rest, scores, rest.index(each))))
         ranked.sort(key=lambda of: -of[0].nats)
         changes = [_change(model, each, score.p, alike, taken, names) for score, each, alike in ranked]
-        cannot = [of[1] for of, change in zip(ranked, changes, strict=True) if not stands(model, of[1], change, tried)]
+        cannot = [
+            of[1] for of, change in zip(ranked, changes, strict=True) if not stands(model, of[1], change, taken, tried)
+        ]
         if not cannot:
             return taken, tuple(changes)
         possible.remove(cannot[-1])
@@ -114,11 +115,12 @@ def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tup
     return masks
 
 
-def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
+def _seen(model: SharedModel, possible: Sequence[Possible], found: Sequence[Possible]) -> tuple[Seen, ...]:
     """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
     least: dict[str, float] = {}
     zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
-    sizes = model.smallest_seen(zeros, COMPARING.level / len(possible), COMPARING.power) if zeros else ()
+    level = COMPARING.level / max(len(possible), 1)
+    sizes = model.smallest_seen(zeros, level, COMPARING.power, found) if zeros else ()
     for each, size in zip(zeros, sizes, strict=True):
         least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
     return tuple(Seen(location, size) for location, size in least.items())

@@ -172,11 +172,14 @@ class SharedModel:
         nats = free / 2 * np.log(total / without) / self.dispersion - statistic.price_nats
         return Scored(statistic, statistic.p(self.dispersion), float(nats))
 
-    def smallest_seen(self, possible: Sequence[Possible], level: float, power: float) -> Array:
+    def smallest_seen(
+        self, possible: Sequence[Possible], level: float, power: float, found: Sequence[Possible] = ()
+    ) -> Array:
         """How large changes of one number each must be to be seen, each alone beside all that is shared.
 
         Args:
             possible: the n changes.
+            found: what changed, and is no noise.
             level: the probability below which one is a change.
             power: in which share of cases.
 
@@ -184,7 +187,7 @@ class SharedModel:
             (n,) the sizes, SI units; infinite where the rows tell nothing of it.
         """
         base, penalty = self._base(())
-        variance, free = self._left(base, penalty)
+        variance, free = self._left(*self._base(found))
         columns = np.column_stack([self.columns(each)[:, 0] for each in possible])
         across = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ (base.T @ columns)
         square = np.array([self._size(each)[0] ** 2 for each in possible])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.special import fdtri
 
@@ -14,13 +16,14 @@ NOT_NEGATIVE = ("backlash",)
 """Beside what gives way: a gap that is less than none is none."""
 
 
-def stands(model: SharedModel, found: Possible, change: Change, tried: int) -> bool:
+def stands(model: SharedModel, found: Possible, change: Change, taken: Sequence[Possible], tried: int) -> bool:
     """Whether a change's own numbers say that it is one, and one that this cause can make.
 
     Args:
         model: what recordings share.
         found: the change.
         change: as it would be told.
+        taken: all changes, this one included.
         tried: how many there were to choose from.
 
     Returns:
@@ -28,7 +31,7 @@ def stands(model: SharedModel, found: Possible, change: Change, tried: int) -> b
         tool by less than the noise lets anyone see.
     """
     surely = any(low > 0 or high < 0 for low, high in (number.interval_95 for number in change.parameters))
-    return surely and not _impossible(change) and change.rms_mm >= least_seen_mm(model, found, tried)
+    return surely and not _impossible(change) and change.rms_mm >= least_seen_mm(model, found, taken, tried)
 
 
 def _impossible(change: Change) -> bool:
@@ -43,18 +46,19 @@ def _impossible(change: Change) -> bool:
     )
 
 
-def least_seen_mm(model: SharedModel, found: Possible, tried: int) -> float:
+def least_seen_mm(model: SharedModel, found: Possible, taken: Sequence[Possible], tried: int) -> float:
     """What a change must move the tool by to be told from noise if nothing else could look like it.
 
     Args:
         model: what recordings share.
         found: the change, of q numbers.
+        taken: all changes: what they do is no noise.
         tried: how many there were to choose from.
 
     Returns:
         RMS of the distance, mm: of it chance makes as much, on these rows, as often as the level says.
     """
     points = [np.sum(model.weight[rows] ** 2) / 3 for rows in (found.there, ~found.there)]
-    q, variance = len(found.placed.terms), model.variance([found])
+    q, variance = len(found.placed.terms), model.variance(taken)
     least = fdtri(q, len(model.weight) - q, 1 - COMPARING.level / tried)
     return float(np.sqrt(q * least * model.dispersion * variance * sum(1 / each for each in points)))
