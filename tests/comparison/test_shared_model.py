@@ -67,3 +67,13 @@ def test_the_noise_of_short_tables_is_what_it_is(rows):
     """The numbers that a fit takes up are not counted as quiet rows."""
     model = SharedModel(ARM, *stacked(ARM, {"a": session(61, rows=rows), "b": session(62, rows=rows)}))
     assert np.sqrt(model.variance(())) == pytest.approx(0.03, rel=0.15)
+
+
+def test_a_recording_that_is_too_short_to_be_fitted_alone_is_no_quiet_one():
+    """45 rows hold fewer numbers than base, tool and all effects: alone, they left a tenth of their noise or less."""
+    for seed in range(4):
+        tables = {"a": session(31000 + 2 * seed), "b": session(31001 + 2 * seed, rows=45)}
+        model = SharedModel(ARM, *stacked(ARM, tables))
+        long, short = (np.median(model.weight[model.group == k]) for k in (0, 1))
+        assert not model.weighed_alone
+        assert 0.7 < long / short < 1.4

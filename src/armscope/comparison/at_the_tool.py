@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.comparison.shared_model import Possible, SharedModel
+from armscope.comparison.dispersion import Possible
+from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 
 

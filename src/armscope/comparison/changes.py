@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
-from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Scored
+from armscope.comparison.constants import COMPARING, SHARED
+from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.search import likeliest_changes
 from armscope.comparison.sets import of_same_poses, stacked
-from armscope.comparison.shared_model import Possible, SharedModel
+from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.standing import stands
 from armscope.core.types import Array
 from armscope.physics.effect import Term
@@ -84,7 +84,7 @@ def _named(
     """
     possible, tried = list(everything), len(everything)
     while True:
-        taken = likeliest_changes(model, possible, tried)
+        taken = _settled_changes(model, possible, tried)
         ranked = []
         for each in taken:
             others = [other for other in taken if other is not each]
@@ -99,6 +99,19 @@ def _named(
         if not cannot:
             return taken, tuple(changes)
         possible.remove(cannot[-1])
+
+
+def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: int) -> list[Possible]:
+    """The likeliest changes, short recordings weighed with what was found: without it one of them counts as noisy."""
+    taken = likeliest_changes(model, possible, tried)
+    for _ in range(SHARED.weighings):
+        if not taken or model.weighed_alone:
+            break
+        model.weigh_recordings(taken)
+        before, taken = set(taken), likeliest_changes(model, possible, tried)
+        if set(taken) == before:
+            break
+    return taken
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:

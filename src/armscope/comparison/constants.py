@@ -66,6 +66,16 @@ class SharedModelRules(Constants):
         "share of a column's square that must be left beside what is shared for its change to be seen",
         "derived: 3 % of its size at the tool",
     )
+    weighings: int = constant(
+        4,
+        "rounds in which short recordings get their weight",
+        "judgement: in the first a noisy one pulls the fit of a quiet one",
+    )
+    free_alone: float = constant(
+        20.0,
+        "numbers that are free when a recording is fitted alone, from which its noise is known by that",
+        "derived: to 1 / sqrt(2 x 20) = 16 %; with one free, eight pairs of 20 seemed to have changed",
+    )
     held: float = constant(
         1e-9, "penalty on frames and changes of unit length", "judgement: too little for any that the rows tell"
     )

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import SHARED
-from armscope.comparison.dispersion import Scored, Statistic, halves, overdispersion
+from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import point_columns
@@ -27,21 +26,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-
-@dataclass(frozen=True, eq=False)
-class Possible:
-    """A change that may be: an effect, its number and its parameters' usual sizes (q,), in which of (3N,), and where.
-
-    In the rows of some recordings, ``sets``, held ``against`` others.
-    """
-
-    placed: Placed
-    number: int
-    plausible: Array
-    there: NDArray[np.bool_]
-    sets: tuple[int, ...]
-    against: tuple[int, ...]
 
 
 class SharedModel:
@@ -66,7 +50,7 @@ class SharedModel:
         self.dispersion = 1.0
         self._robust = self.weight = weight
         self._noise = self._settled_noise()
-        self._weigh_recordings()
+        self.weigh_recordings(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
         if (load := load_at_the_flange(arm, table)) is not None:
             self._offer(load, _columns(model, table, load.terms))
@@ -79,18 +63,39 @@ class SharedModel:
         self.plausible = np.append(self.plausible, [term.plausible for term in placed.terms])
         self._start = np.append(self._start, self._start[-1] + len(placed.terms))
 
-    def _weigh_recordings(self) -> None:
+    def weigh_recordings(self, taken: Sequence[Possible]) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
 
         By what is left when it is fitted alone. Beside what all share, one in which several causes changed would count
-        as a noisy one, whose rows then show no change.
+        as a noisy one, whose rows then show no change. Where a recording is too short to be fitted alone, by what is
+        left beside what all share.
+
+        Args:
+            taken: changes, without which a short recording that has one would count as a noisy one.
         """
-        noise = np.sqrt([alone._noise for alone in map(self._alone, range(self.group[-1] + 1))])
-        share = np.bincount(self.group) / len(self.group)
-        relative = (np.sqrt(share @ noise**2) / noise)[self.group]
+        alone = [each._left(*each._base(())) for each in map(self._alone, range(self.group[-1] + 1))]
+        self.weighed_alone = min(free for _, free in alone) >= SHARED.free_alone
+        if self.weighed_alone:
+            self._weigh(np.sqrt([variance for variance, _ in alone]))
+            return
+        self._reweigh(self._robust / self.weight)
+        for _ in range(SHARED.weighings):
+            base, penalty = self._base(taken)
+            hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
+            square = (self.residual - base @ (hat @ self.residual)) ** 2
+            free = np.maximum(np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat)), 1.0)
+            self._weigh(np.sqrt(np.bincount(self.group, square) / free + 1e-24))
+            self._noise = self._settled_noise()
+
+    def _weigh(self, noise: Array) -> None:
+        """Give recordings weights by their noise (sets,), as multiples of those that they have."""
+        variance = np.bincount(self.group) @ noise**2 / len(self.group)
+        self._reweigh((np.sqrt(variance) / noise)[self.group])
+        self._noise = float(variance)
+
+    def _reweigh(self, relative: Array) -> None:
         self.weight, self.residual = self.weight * relative, self.residual * relative
         self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
-        self._noise = float(share @ noise**2)
 
     def _alone(self, number: int) -> SharedModel:
         """One recording, with effects of its own."""

@@ -8,8 +8,9 @@ import numpy as np
 from scipy.special import fdtri
 
 from armscope.comparison.constants import COMPARING
+from armscope.comparison.dispersion import Possible
 from armscope.comparison.result import Change
-from armscope.comparison.shared_model import Possible, SharedModel
+from armscope.comparison.shared_model import SharedModel
 from armscope.physics.registry import effect_named
 
 NOT_NEGATIVE = ("backlash",)
