@@ -10,7 +10,16 @@ from armscope.core.types import Array
 
 
 def moved_mm(model: SharedModel, possible: Possible, change: Array) -> float:
-    """What a change by (q,) SI units moves the tool: RMS of the distance, mm."""
+    """What a change moves the tool by.
+
+    Args:
+        model: what recordings share.
+        possible: the change.
+        change: (q,) its size, SI units.
+
+    Returns:
+        RMS of the distance in the recordings that have it, mm.
+    """
     moved = _beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change)
     return float(np.sqrt(3) * _rms(model, possible, moved))
 
