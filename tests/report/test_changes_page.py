@@ -199,8 +199,66 @@ def test_parts_of_a_wave_are_told_in_words(tmp_path, name, told):
     assert label.endswith(told)
 
 
+def test_moments_of_masses_are_told_in_a_sentence_and_folded(tmp_path):
+    """Ten rows of "compliance times moment 7" in mrad per m/s^2 said nothing to anyone."""
+    moments = [replace(NUMBER, name=f"compliance_times_moment_{n}", unit="rad/(m/s^2)") for n in range(1, 11)]
+    give = replace(NUMBER, name="compliance", unit="rad/(N m)")
+    soft = replace(CHANGE, effect="joint_compliance", location="joint 2", parameters=(*moments, give))
+    html = page_of(replace(FOUND, changes=(soft,)), tmp_path)
+    _, _, folded = html.partition("<details><summary>10 numbers tell how joint 2 gives way to what it carries")
+    inside, _, after = folded.partition("</details>")
+    assert inside.count("compliance times moment") == 10
+    assert "compliance times moment" not in after
+    said = replace(FOUND, changes=(soft,)).text()
+    assert "compliance times moment" not in said
+    assert "10 numbers tell how joint 2 gives way" in said
+    assert "compliance: " in said
+    assert "numbers tell how" not in FOUND.text()
+
+
+def test_what_differs_without_a_name_is_not_called_unchanged(tmp_path):
+    nameless = replace(FOUND, changes=(), p_nothing_changed=1e-9)
+    said = words_of(nameless, tmp_path)
+    assert "Something changed (before, after; p = 1e-09 that nothing changed), and no cause" in said
+    assert "Nothing changed" not in said
+    assert "no cause found" in said
+    assert "no change seen" not in said
+
+
+def test_where_nothing_is_named_no_tile_counts_to_zero(tmp_path):
+    page_of(replace(FOUND, changes=(), p_nothing_changed=1.0), tmp_path)
+    html = (tmp_path / "changes.html").read_text().replace("</b><span>", " ").replace("\u00a0", " ")
+    said = " ".join(parsed(html).text.split())
+    assert "none of 100 possible changes stands out" in said
+    assert "100 % of comparisons in which nothing changed look like this one" in said
+    assert " 0 changes" not in said
+    assert "named where p is below" not in said
+
+
+def test_what_was_repaired_has_no_cure_on_the_page(tmp_path):
+    less = replace(CHANGE, kind="went", alternatives=("link geometry at link 3",), left_mm=0.8, taken_back_mm=0.97)
+    said = words_of(replace(FOUND, changes=(less,)), tmp_path)
+    assert "To do: Nothing is to be corrected: there is less of it in after than in before" in said
+    assert "Cure" not in said
+    assert "before anything is mended" not in said
+    assert "Taken back, 0.97 mm in place of 0.8 mm per axis would be left in after." in said
+
+
+def test_numbers_of_the_file_carry_their_unit(tmp_path):
+    """SI, or mm, as the unit beside each says; the page shows them in mrad."""
+    page_of(FOUND, tmp_path)
+    content = json.loads((tmp_path / "comparison.json").read_text())
+    numbers = [number for change in content["changes"] for number in change["parameters"]]
+    assert [(each["unit"], each["difference"]) for each in numbers] == [("rad", 8.7e-4)]
+
+
 FRAME = """<iframe src="changes.html" style="width:420px;height:900px;border:0"></iframe><script>
 onload = () => { document.title = frames[0].document.documentElement.scrollWidth; };</script>"""
+
+
+WIDTH = "frames[0].document.documentElement.scrollWidth"
+CUT = """(all => `${all.filter(e => e.scrollWidth > e.clientWidth).length} of ${all.length}`)(
+  [...frames[0].document.querySelectorAll(".effect .scroll")])"""
 
 
 @pytest.mark.browser
@@ -219,3 +277,6 @@ def test_the_page_is_no_wider_than_a_telephone(tmp_path):
     look += [f"--user-data-dir={tmp_path}/b", (tmp_path / "frame.html").as_uri()]
     seen = subprocess.run(look, check=True, capture_output=True, text=True, timeout=120).stdout
     assert int(seen.partition("<title>")[2].partition("<")[0]) <= 420
+    (tmp_path / "frame.html").write_text(FRAME.replace(WIDTH, CUT))
+    seen = subprocess.run(look, check=True, capture_output=True, text=True, timeout=120).stdout
+    assert seen.partition("<title>")[2].partition("<")[0] == "0 of 1", "no card's table is cut, or needs to be moved"

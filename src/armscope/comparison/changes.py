@@ -4,8 +4,9 @@ Linear about the nominal arm. Shared by all recordings: every effect of the libr
 by a prior of some millimetres at the tool (what no data tell apart stays small). Of each recording's own: base and
 tool. A change is one effect more in some of the recordings. Its F statistic beside all that is shared says how likely
 chance makes it; the smallest of all, times their number (Bonferroni), is the joint test that nothing changed. While it
-is below the level, the likeliest of the sure ones is taken in and the rest are tested beside it. What differs between
-halves of one recording, where nothing changed, makes all of them less sure (`armscope.comparison.dispersion`).
+is below the level, those are named that are sure beside each other and explain the rows best together
+(`armscope.comparison.search`). What differs between halves of one recording, where nothing changed, makes all of them
+less sure (`armscope.comparison.dispersion`).
 """
 
 from __future__ import annotations
@@ -16,13 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Scored
+from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
+from armscope.comparison.constants import COMPARING, SHARED
+from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
+from armscope.comparison.search import likeliest_changes
 from armscope.comparison.sets import of_same_poses, stacked
-from armscope.comparison.shared_model import Possible, SharedModel
+from armscope.comparison.shared_model import SharedModel
+from armscope.comparison.standing import stands
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.physics.geometric import JOINT_OFFSET
@@ -50,24 +54,10 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     model = SharedModel(arm, table, group)
     families = of_same_poses(list(recordings.values()))
     everything = model.possible_changes(_masks(families, of_arms))
-    seen = _seen(model, everything)  # of one change alone, so before recordings are weighed without those found
-    possible = list(everything)
-    taken: list[Possible] = []
-    found: list[tuple[Possible, Scored, tuple[str, ...]]] = []
-    joint, tried = 1.0, len(possible)
-    while possible and len(taken) < COMPARING.changes:
-        scores = model.scores(possible, taken)
-        p = min(1.0, min(score.p for score in scores) * tried)
-        joint = p if not taken else joint
-        if p > COMPARING.level:
-            break
-        sure = [each for each, score in enumerate(scores) if score.p * tried <= COMPARING.level]
-        best = max(sure, key=lambda each: scores[each].nats)
-        found.append((possible[best], scores[best], _as_good(possible, scores, best)))
-        taken.append(possible.pop(best))
-        model.weigh_recordings(taken)
+    tried = len(everything)
+    joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     names = tuple(recordings)
-    changes = tuple(_change(model, each, score.p, others, taken, names) for each, score, others in found)
+    taken, changes = _named(model, everything, names)
     return Comparison(
         arm=arm.name,
         names=names,
@@ -78,11 +68,50 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
-        seen=seen,
+        seen=_seen(model, everything, taken),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
+
+
+def _named(
+    model: SharedModel, everything: Sequence[Possible], names: Sequence[str]
+) -> tuple[list[Possible], tuple[Change, ...]]:
+    """The changes that explain the rows best and can stand as they are told, the likeliest first.
+
+    A name that cannot stand stood for others that did: without it, they are looked for again.
+    """
+    possible, tried = list(everything), len(everything)
+    while True:
+        taken = _settled_changes(model, possible, tried)
+        ranked = []
+        for each in taken:
+            others = [other for other in taken if other is not each]
+            rest = [other for other in possible if other not in others]
+            scores = model.scores(rest, others)
+            ranked.append((scores[rest.index(each)], each, _as_good(rest, scores, rest.index(each))))
+        ranked.sort(key=lambda of: -of[0].nats)
+        changes = [_change(model, each, score.p, alike, taken, names) for score, each, alike in ranked]
+        cannot = [
+            of[1] for of, change in zip(ranked, changes, strict=True) if not stands(model, of[1], change, taken, tried)
+        ]
+        if not cannot:
+            return taken, tuple(changes)
+        possible.remove(cannot[-1])
+
+
+def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: int) -> list[Possible]:
+    """The likeliest changes, short recordings weighed with what was found: without it one of them counts as noisy."""
+    taken = likeliest_changes(model, possible, tried)
+    for _ in range(SHARED.weighings):
+        if not taken or model.weighed_alone:
+            break
+        model.weigh_recordings(taken)
+        before, taken = set(taken), likeliest_changes(model, possible, tried)
+        if set(taken) == before:
+            break
+    return taken
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
@@ -99,11 +128,12 @@ def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tup
     return masks
 
 
-def _seen(model: SharedModel, possible: Sequence[Possible]) -> tuple[Seen, ...]:
+def _seen(model: SharedModel, possible: Sequence[Possible], found: Sequence[Possible]) -> tuple[Seen, ...]:
     """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
     least: dict[str, float] = {}
     zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
-    sizes = model.smallest_seen(zeros, COMPARING.level / len(possible), COMPARING.power) if zeros else ()
+    level = COMPARING.level / max(len(possible), 1)
+    sizes = model.smallest_seen(zeros, level, COMPARING.power, found) if zeros else ()
     for each, size in zip(zeros, sizes, strict=True):
         least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
     return tuple(Seen(location, size) for location, size in least.items())
@@ -151,18 +181,20 @@ def _change(
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))
     contrast = inside / inside.sum() - outside / outside.sum()
     parameters = []
-    for place, term in enumerate(found.placed.terms):
-        at = place + q * np.arange(len(names))
+    for number, term in enumerate(found.placed.terms):
+        at = number + q * np.arange(len(names))
         difference = float(contrast @ values[at])
         error = float(np.sqrt(contrast @ covariance[np.ix_(at, at)] @ contrast))
         half = float(stdtrit(free, 0.975)) * error
         parameters.append(_valued(term, values[at], covariance[np.ix_(at, at)], (difference, half)))
-    rms = model.moved_mm(found, contrast @ values.reshape(len(names), q))
+    change = contrast @ values.reshape(len(names), q)
+    rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
     kind = _kind(parameters, inside, outside)
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
-    return Change(found.placed.name, found.placed.location, title, where, held, kind, rms, p, numbers, others, until)
+    place = found.placed.name, found.placed.location, title
+    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -198,8 +230,9 @@ def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDAr
     before, after = np.mean(values[outside]), np.mean(values[inside])
     was = abs(before) > INTERVAL * np.sqrt(np.mean(errors[outside] ** 2))
     is_now = abs(after) > INTERVAL * np.sqrt(np.mean(errors[inside] ** 2))
-    if was != is_now:
+    more = abs(after) > abs(before)
+    if was != is_now and is_now == more:
         return "came" if is_now else "went"
-    if not was or before * after < 0:  # how large it is in all of them may be open where its change is not
+    if not (was and is_now) or before * after < 0:  # how large it is in all of them may be open where its change is not
         return "changed"
-    return "grew" if abs(after) > abs(before) else "shrank"
+    return "grew" if more else "shrank"

@@ -14,6 +14,18 @@ class ComparingRules(Constants):
     level: float = constant(0.05, "how often something is named although nothing changed", "convention")
     power: float = constant(0.9, "share of cases in which a change is named that would be seen", "convention")
     changes: int = constant(8, "changes of one comparison, at most", "judgement: with more, it is another arm")
+    better_nats: float = constant(
+        1e-6,
+        "by which as many numbers in a change's place must be likelier",
+        "derived: rounding, so that the search ends",
+        unit="nats",
+    )
+    surely_negative: float = constant(
+        3.0,
+        "below zero, from which a number that cannot be is, and its name with it",
+        "convention: three; less is nothing and noise",
+        unit="standard errors",
+    )
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
     many_alike: int = constant(
         8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"
@@ -56,8 +68,13 @@ class SharedModelRules(Constants):
     )
     weighings: int = constant(
         4,
-        "rounds in which recordings get their weight",
+        "rounds in which short recordings get their weight",
         "judgement: in the first a noisy one pulls the fit of a quiet one",
+    )
+    free_alone: float = constant(
+        20.0,
+        "numbers that are free when a recording is fitted alone, from which its noise is known by that",
+        "derived: to 1 / sqrt(2 x 20) = 16 %; with one free, eight pairs of 20 seemed to have changed",
     )
     held: float = constant(
         1e-9, "penalty on frames and changes of unit length", "judgement: too little for any that the rows tell"

@@ -17,6 +17,7 @@ from scipy.special import fdtrc
 
 from armscope.comparison.constants import COMPARING
 from armscope.core.types import Array
+from armscope.physics.effect import Placed
 
 AXES = 3
 """Directions of the poses along which a recording is halved."""
@@ -40,6 +41,21 @@ class Statistic:
     def p(self, dispersion: float) -> float:
         """How often chance alone gives one as large."""
         return float(fdtrc(self.q, self.free - self.q, self.f / dispersion)) if self.q else 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Possible:
+    """A change that may be: an effect, its number and its parameters' usual sizes (q,), in which of (3N,), and where.
+
+    In the rows of some recordings, ``sets``, held ``against`` others.
+    """
+
+    placed: Placed
+    number: int
+    plausible: Array
+    there: NDArray[np.bool_]
+    sets: tuple[int, ...]
+    against: tuple[int, ...]
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison, Valued
@@ -11,7 +14,7 @@ from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.tasks import with_numbers
-from armscope.verdict.wording import enumerated, read_parameter
+from armscope.verdict.wording import enumerated, millimetres, read_parameter
 
 
 @dataclass(frozen=True)
@@ -48,11 +51,53 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     if found.over_in(change):
         done = f"Nothing is left to be done about what {enumerated(change.where)} alone had."
         return Remedy(known.physics, _why(found, change), "", done, "")
-    differences = [difference_of(number) for number in change.parameters]
-    verb = "it differs" if found.of_arms else "it moved"
-    instruction = known.cure.instruction.format_map(_words(known, change.location, differences, verb))
-    rule = with_numbers(known.cure.rule.replace("`", ""), differences, change.effect)
-    return Remedy(known.physics, _why(found, change), known.confirm, instruction, rule)
+    numbers = [difference_of(number) for number in change.parameters]
+    verb, worth = "it differs" if found.of_arms else "it moved", _worth(change)
+    if (turned := _on_the_other_side(found, change)) is not None:
+        numbers, verb, worth = [turned], "it is off", ""
+    elif known is not ANOTHER_LOAD and (change.is_less or change.is_hidden):  # a load is weighed, not taken back
+        return Remedy(known.physics, _why(found, change), "", _nothing_to_mend(change), "")
+    instruction = known.cure.instruction.format_map(_words(known, change.location, numbers, verb))
+    rule = with_numbers(known.cure.rule.replace("`", ""), numbers, change.effect)
+    return Remedy(known.physics, _why(found, change), known.confirm, f"{instruction}{worth}", rule)
+
+
+def _on_the_other_side(found: Comparison, change: Change) -> Parameter | None:
+    """The number as it is now, where it surely is on the other side of zero than before: that is what is to be mended.
+
+    By its change, more would be taken back than there is.
+    """
+    if change.kind != "changed" or len(change.parameters) != 1:
+        return None
+    (number,) = change.parameters
+    values, errors = np.array(number.values), np.array(number.stderrs)
+    (before, _), (now, error) = (
+        (float(np.mean(values[of])), float(np.sqrt(np.mean(errors[of] ** 2))))
+        for of in (np.isin(found.names, change.against), np.isin(found.names, change.where))
+    )
+    surely = np.abs(values) > INTERVAL * errors
+    surely = surely[np.isin(found.names, (*change.against, *change.where))].all()
+    return Parameter(number.name, number.unit, now, error) if surely and before * now < 0 else None
+
+
+def _nothing_to_mend(change: Change) -> str:
+    """That nothing is corrected, because there is less of the cause now, or because other causes make up for it."""
+    where, others = enumerated(change.where), enumerated(change.against)
+    if change.is_hidden:
+        hides = "What all recordings share makes up for it"
+        return (
+            f"Nothing is to be corrected by this alone.{_worth(change)} {hides}: diagnose {where} and mend all of it."
+        )
+    less = f"there is less of it in {where} than in {others}, and to take the change back would bring it again"
+    return f"Nothing is to be corrected: {less}.{_worth(change)}"
+
+
+def _worth(change: Change) -> str:
+    """What taking a change back would do; empty where it is not known."""
+    if math.isnan(change.taken_back_mm):
+        return ""
+    now, back = millimetres(change.left_mm), millimetres(change.taken_back_mm)
+    return f" Taken back, {back} in place of {now} per axis would be left in {enumerated(change.where)}."
 
 
 def difference_of(number: Valued) -> Parameter:
@@ -67,8 +112,11 @@ def _why(found: Comparison, change: Change) -> str:
         return f"Look at what is done to each arm alone: how {change.where[0]} was assembled, mastered and mounted."
     earlier = [name for name in found.names[: found.names.index(change.where[0])] if name in change.against]
     between = f'between "{earlier[-1]}" and "{change.where[0]}"' if earlier else f'before "{change.where[0]}"'
-    if change.kind in ("went", "shrank"):
-        return f"If that is what was repaired {between}, the repair worked. Else find out what happened then."
+    if change.is_less and change.effect != ANOTHER_LOAD.name:
+        return (
+            f"If that is what was repaired {between}, the repair worked. Else find out what happened then: something "
+            "was corrected in the controller, a joint was homed anew, or another cause now makes up for it."
+        )
     if over := found.over_in(change):
         between = f'{between}, and again before "{over}"'
     return f"Find out what happened {between}: a crash, a repair, a joint homed anew, something that came loose."

@@ -19,6 +19,7 @@ UNLIKE = {
     "changed": "differs{by} in {where} from {others}",
 }  # fmt: skip
 """What a change is called where recordings are of several arms."""
+MOMENT = "compliance_times_moment_"
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
 
 
@@ -64,6 +65,8 @@ class Change:
         parameters: in every recording.
         alternatives: causes that explain the change as well (evidence within 20 to 1).
         until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
+        left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
+        taken_back_mm: the same if the change were taken back. Where that is more, they have less of it than others.
     """
 
     effect: str
@@ -77,6 +80,18 @@ class Change:
     parameters: tuple[Valued, ...]
     alternatives: tuple[str, ...]
     until: str = ""
+    left_mm: float = math.nan
+    taken_back_mm: float = math.nan
+
+    @property
+    def is_less(self) -> bool:
+        """Whether there is less of the cause where it changed, so that taking the change back would bring it again."""
+        return self.kind in ("went", "shrank") or (self.kind == "changed" and self.taken_back_mm >= self.left_mm)
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether there is more of it, and still to take it back alone brings the tool no nearer."""
+        return self.kind in ("came", "grew") and self.taken_back_mm >= self.left_mm
 
     @property
     def title_with_doubt(self) -> str:
@@ -163,7 +178,10 @@ class Comparison:
         nothing = "all are alike" if self.of_arms else "nothing changed"
         said = f"{self.told} ({chance} that {nothing})." if self.changes else ""
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
-        if not said and among:
+        if not said and among and self.p_nothing_changed <= self.level:
+            differs = "These arms differ" if self.of_arms else "Something changed"
+            said = f"{differs} ({among}; {chance} that {nothing}), and no cause that was tried can be what it was."
+        elif not said and among:
             alike = "No arm is unlike the others" if self.of_arms else "Nothing changed"
             said = f"{alike} that these recordings show ({among}; {chance})."
         return " ".join(filter(None, (said, self.other_load, self.not_comparable)))
@@ -222,7 +240,9 @@ class Comparison:
         for each in self.changes:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")
-            lines += [f"  {_number_line(number)}" for number in each.parameters]
+            moments = moments_of(each)
+            lines += [f"  {_number_line(number)}" for number in each.parameters if number not in moments]
+            lines += [f"  {moments_in_words(each.location, len(moments))}"] * bool(moments)
             if each.alternatives:
                 lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")
         return "\n".join(lines)
@@ -233,6 +253,20 @@ def _by(change: Change) -> str:
     if change.kind != "changed" or len(change.parameters) != 1:
         return ""
     return f" by {size_of(change.parameters[0].difference, change.parameters[0].unit, sign=True)}"
+
+
+def moments_of(change: Change) -> tuple[Valued, ...]:
+    """A drive's numbers that are told as one: of each it is not known how much is compliance and how much is mass."""
+    numbers = tuple(each for each in change.parameters if each.name.startswith(MOMENT))
+    return numbers if len(numbers) > 1 else ()
+
+
+def moments_in_words(location: str, count: int) -> str:
+    """What a drive's products of compliance and mass moments are."""
+    return (
+        f"{count} numbers tell how {location} gives way to what it carries, whose masses need not be as stated: each "
+        "is the drive's compliance times the mass moment of one combination of links."
+    )
 
 
 def wave_part(name: str) -> str:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import SHARED
-from armscope.comparison.dispersion import Scored, Statistic, halves, overdispersion
+from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
 from armscope.core.types import Array, Indices
 from armscope.fitting.design_matrix import point_columns
@@ -27,21 +26,6 @@ from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-
-
-@dataclass(frozen=True, eq=False)
-class Possible:
-    """A change that may be: an effect, its number and its parameters' usual sizes (q,), in which of (3N,), and where.
-
-    In the rows of some recordings, ``sets``, held ``against`` others.
-    """
-
-    placed: Placed
-    number: int
-    plausible: Array
-    there: NDArray[np.bool_]
-    sets: tuple[int, ...]
-    against: tuple[int, ...]
 
 
 class SharedModel:
@@ -82,33 +66,51 @@ class SharedModel:
     def weigh_recordings(self, taken: Sequence[Possible]) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
 
+        By what is left when it is fitted alone. Beside what all share, one in which several causes changed would count
+        as a noisy one, whose rows then show no change. Where a recording is too short to be fitted alone, by what is
+        left beside what all share.
+
         Args:
-            taken: changes, without which a recording that has one would count as a noisy one.
+            taken: changes, without which a short recording that has one would count as a noisy one.
         """
-        self._weigh(self._robust / self.weight)
+        alone = [each._left(*each._base(())) for each in map(self._alone, range(self.group[-1] + 1))]
+        self.weighed_alone = min(free for _, free in alone) >= SHARED.free_alone
+        if self.weighed_alone:
+            self._weigh(np.sqrt([variance for variance, _ in alone]))
+            return
+        self._reweigh(self._robust / self.weight)
         for _ in range(SHARED.weighings):
             base, penalty = self._base(taken)
             hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
             square = (self.residual - base @ (hat @ self.residual)) ** 2
             free = np.maximum(np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat)), 1.0)
-            noise = np.sqrt(np.bincount(self.group, square) / free + 1e-24)
-            self._weigh((np.sqrt(np.sum(square) / np.sum(free)) / noise)[self.group])
+            self._weigh(np.sqrt(np.bincount(self.group, square) / free + 1e-24))
+            self._noise = self._settled_noise()
 
-    def _weigh(self, relative: Array) -> None:
-        """Give the numbers other weights, as multiples (3N,) of those that they have."""
+    def _weigh(self, noise: Array) -> None:
+        """Give recordings weights by their noise (sets,), as multiples of those that they have."""
+        variance = np.bincount(self.group) @ noise**2 / len(self.group)
+        self._reweigh((np.sqrt(variance) / noise)[self.group])
+        self._noise = float(variance)
+
+    def _reweigh(self, relative: Array) -> None:
         self.weight, self.residual = self.weight * relative, self.residual * relative
         self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
-        self._noise = self._settled_noise()
+
+    def _alone(self, number: int) -> SharedModel:
+        """One recording, with effects of its own."""
+        rows = self.group == number
+        alone = copy.copy(self)
+        alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
+        alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
+        alone._noise = alone._settled_noise()
+        return alone
 
     def _between_halves(self, angles: Array) -> Iterator[Statistic]:
         """What differs between halves of each recording, for every effect, with frames and effects of its own."""
         for number in range(self.group[-1] + 1):
-            rows = self.group == number
-            alone = copy.copy(self)
-            alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
-            alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
-            alone._noise = alone._settled_noise()
-            parts = [np.repeat(half, 3) for half in halves(angles[rows[::3]])]
+            alone = self._alone(number)
+            parts = [np.repeat(half, 3) for half in halves(angles[self.group[::3] == number])]
             changes = [
                 Possible(each, at, self._of(self.plausible, at), part, (), ())
                 for at, each in enumerate(self.placed)
@@ -126,8 +128,28 @@ class SharedModel:
         ]
 
     def columns(self, possible: Possible) -> Array:
-        """(3N, q) a change's columns, mm per unit, as its rows are weighed now."""
-        return self.effects[:, self._at(possible.number)] * possible.there[:, None]
+        """(3N, q) a change's columns, mm per unit, as rows are weighed: half of it more there, half less elsewhere.
+
+        Beside what is shared it is the same as all of it on either side, and which side comes first does not matter.
+        """
+        return self.effects[:, self._at(possible.number)] * (possible.there - 0.5)[:, None]
+
+    def _size(self, possible: Possible) -> Array:
+        """(q,) of a change's columns beside the same effect where it is shared: what both sides show is what counts."""
+        square = self.effects[:, self._at(possible.number)] ** 2
+        there, elsewhere = square[possible.there].sum(axis=0), square[~possible.there].sum(axis=0)
+        either = there + elsewhere
+        return np.asarray(np.sqrt(there * elsewhere / np.where(either > 0, either, 1.0)))
+
+    def _told(self, possible: Possible, variance: float) -> NDArray[np.bool_]:
+        """(q,) the numbers that move the rows by more than their noise where they change as much as arms show."""
+        return np.asarray(self._size(possible) > np.sqrt(variance) / possible.plausible)
+
+    def evidence(self, taken: Sequence[Possible]) -> float:
+        """How likely the rows are with changes, nats: what they fit better less what their numbers cost (Schwarz)."""
+        variance, free = self._left(*self._base(taken))
+        price = sum(int(self._told(each, variance).sum()) for each in taken) / 2 * np.log(max(free, 2.0))
+        return float(-len(self.residual) / 2 * np.log(variance * free) / self.dispersion - price)
 
     def scores(self, possible: Sequence[Possible], taken: Sequence[Possible]) -> list[Scored]:
         """How much better each change makes the fit, beside those that were taken."""
@@ -138,11 +160,8 @@ class SharedModel:
         return [self._score(each, half, left, variance, free) for each in possible]
 
     def _score(self, possible: Possible, half: Array, left: Array, variance: float, free: float) -> Scored:
-        every = self.columns(possible)
-        size = np.sqrt(np.sum(every**2, axis=0))
-        # a change of the size that arms show must move the rows by more than their noise
-        told = size > np.sqrt(variance) / possible.plausible
-        columns = every[:, told] / size[told]
+        told = self._told(possible, variance)
+        columns = self.columns(possible)[:, told] / self._size(possible)[told]
         across = half @ columns
         values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
         seen = values > SHARED.unseen
@@ -158,11 +177,14 @@ class SharedModel:
         nats = free / 2 * np.log(total / without) / self.dispersion - statistic.price_nats
         return Scored(statistic, statistic.p(self.dispersion), float(nats))
 
-    def smallest_seen(self, possible: Sequence[Possible], level: float, power: float) -> Array:
+    def smallest_seen(
+        self, possible: Sequence[Possible], level: float, power: float, found: Sequence[Possible] = ()
+    ) -> Array:
         """How large changes of one number each must be to be seen, each alone beside all that is shared.
 
         Args:
             possible: the n changes.
+            found: what changed, and is no noise.
             level: the probability below which one is a change.
             power: in which share of cases.
 
@@ -170,11 +192,11 @@ class SharedModel:
             (n,) the sizes, SI units; infinite where the rows tell nothing of it.
         """
         base, penalty = self._base(())
-        variance, free = self._left(base, penalty)
+        variance, free = self._left(*self._base(found))
         columns = np.column_stack([self.columns(each)[:, 0] for each in possible])
         across = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ (base.T @ columns)
-        square = np.sum(columns**2, axis=0)
-        information = square - np.sum(across**2, axis=0)
+        square = np.array([self._size(each)[0] ** 2 for each in possible])
+        information = np.sum(columns**2, axis=0) - np.sum(across**2, axis=0)
         usual = np.array([each.plausible[0] for each in possible])
         unseen = (square <= variance / usual**2) | (information <= SHARED.unseen * square)
         # t: F of one number is its square, and noise adds to it or takes away
@@ -226,13 +248,6 @@ class SharedModel:
         values = (inverse @ (design.T @ self.residual))[-own.shape[1] :]
         variance, free = self._left(design, held)
         return values, self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :], free
-
-    def moved_mm(self, possible: Possible, change: Array) -> float:
-        """What a change by (q,) SI units moves the tool beyond what frames absorb: RMS of the distance, mm."""
-        moved = self.columns(possible) @ change
-        moved = moved - self.frames @ np.linalg.lstsq(self.frames, moved, rcond=None)[0]
-        there = np.isin(self.group, possible.sets)
-        return float(np.sqrt(np.sum((moved / self.weight)[there] ** 2) / (there.sum() / 3)))
 
     def _of(self, numbers: Array, number: int) -> Array:
         """An effect's part of numbers that stand one per term."""

@@ -14,7 +14,7 @@ import pandas as pd
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
-from armscope.comparison.result import wave_part
+from armscope.comparison.result import moments_in_words, moments_of, wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
@@ -56,6 +56,8 @@ class ChangeCard:
     means: bool
     size: str
     rows: tuple[ChangedNumber, ...]
+    moments: tuple[ChangedNumber, ...]
+    moments_are: str
     remedy: Remedy
     alternatives: tuple[str, ...]
 
@@ -108,6 +110,8 @@ def _answer(found: Comparison) -> tuple[str, str]:
         return "depends", "cannot be told"
     if found.changes:
         return "fails", "unlike the others" if found.of_arms else "changed"
+    if found.p_nothing_changed <= found.level:
+        return "depends", "no cause found"
     return "holds", "no difference seen" if found.of_arms else "no change seen"
 
 
@@ -120,6 +124,11 @@ def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
         return tiles
     what = "difference" if found.of_arms else "change"
     tried, counted = f"surest of {found.tried} possible {what}s, all counted", f"{what}{'s' * (changes != 1)}"
+    if not changes:
+        least = f"named is what chance gives in less than {100 * found.level:g} % of comparisons"
+        chance = f"of comparisons in which nothing {'differs' if found.of_arms else 'changed'} look like this one"
+        none = (f"none of {found.tried}", f"possible {what}s stands out", least)
+        return [none, (in_odds(found.p_nothing_changed), chance, "by the surest of them, all counted"), *tiles]
     named = (str(changes), counted, f"named where p is below {found.level:g}")
     return [named, (in_odds(found.p_nothing_changed), "is how often chance alone gives this", tried), *tiles]
 
@@ -175,6 +184,7 @@ def _alike(titles: Sequence[str]) -> list[str]:
 
 
 def _card(found: Comparison, change: Change) -> ChangeCard:
+    moments = moments_of(change)
     return ChangeCard(
         title=capitalised(change.title_with_doubt),
         became=found.became(change),
@@ -182,7 +192,9 @@ def _card(found: Comparison, change: Change) -> ChangeCard:
         others=first_to_last(change.against),
         means=len(found.names) > 2,
         size=millimetres(change.rms_mm),
-        rows=tuple(_row(found, change, number) for number in change.parameters),
+        rows=tuple(_row(found, change, number) for number in change.parameters if number not in moments),
+        moments=tuple(_row(found, change, number) for number in moments),
+        moments_are=moments_in_words(change.location, len(moments)),
         remedy=remedy_of(found, change),
         alternatives=tuple(_alike(change.alternatives)),
     )
