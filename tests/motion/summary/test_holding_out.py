@@ -9,7 +9,8 @@ from armscope.core.types import Array
 from armscope.inference.evidence import evaluate
 from armscope.motion.library.layout import OWN
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
-from armscope.motion.summary.holding_out import as_entered, coefficients_of, folds
+from armscope.motion.summary.entering import as_entered
+from armscope.motion.summary.holding_out import coefficients_of, folds
 from armscope.recordings.motions import as_motions
 from tests.motion.fitting.test_pauses import from_point_to_point
 from tests.motion.moving import COULOMB, moved, robot
@@ -50,7 +51,7 @@ def test_friction_below_zero_is_not_among_the_numbers_to_enter() -> None:
         missed.append(moving * (part.rows.torque[part.which] - said))
         torque.append(moving * part.rows.torque[part.which])
     by_hand = np.linalg.norm(np.concatenate(missed)) / np.linalg.norm(np.concatenate(torque))
-    assert as_entered(selected, parts, ())[0] == pytest.approx(by_hand, rel=1e-6)
+    assert as_entered(selected, parts, ())[0].whole == pytest.approx(by_hand, rel=1e-6)
 
 
 @pytest.mark.long
