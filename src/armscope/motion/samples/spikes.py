@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import median_filter
+from scipy.ndimage import binary_dilation, median_filter
 
 from armscope.core.types import Array
 from armscope.motion.samples.constants import READING
-from armscope.recordings.motions import Motions
+from armscope.recordings.motions import Motions, torque_columns
 from armscope.verdict.schema import Notice
 
 SPIKES = "single readings"
@@ -31,16 +31,15 @@ def without_spikes(motions: Motions) -> tuple[Motions, list[Notice]]:
         The samples, and one notice that names channels, rows of the file and values; none where nothing stands alone.
     """
     q, effort, told = motions.q.copy(), motions.effort.copy(), []
-    turning = np.where(motions.sliding, "m", "rad")
-    unit = {"torque": "nm", "current": "a"}[motions.kind]
-    efforts = ["n" if slides and unit == "nm" else unit for slides in motions.sliding]
-    letter = {"torque": "tau", "current": "current"}[motions.kind]
-    for values, names in (
-        (q, [f"q{j + 1}_{turning[j]}" for j in range(motions.n_motors)]),
-        (effort, [f"{'f' if unit == 'n' else letter}{j + 1}_{unit}" for j, unit in enumerate(efforts)]),
-    ):
-        for column, name in zip(values.T, names, strict=True):
+    n = range(1, motions.n_motors + 1)
+    positions = [f"q{j}_{'m' if slides else 'rad'}" for j, slides in zip(n, motions.sliding, strict=True)]
+    efforts = torque_columns(motions.sliding) if motions.kind == "torque" else [f"current{j}_a" for j in n]
+    for values, names in ((q, positions), (effort, efforts)):
+        for joint, name in enumerate(names):
+            column = values[:, joint]
             alone = _alone(motions, column, of_turns=name.endswith("rad"))
+            if values is effort:
+                alone &= ~_turns_back(motions, q[:, joint])
             if alone.any():
                 rows = np.flatnonzero(alone)
                 first = f"{name} in row {rows[0] + 2} ({column[rows[0]]:.4g})"
@@ -75,6 +74,16 @@ def _alone(motions: Motions, values: Array, of_turns: bool) -> NDArray[np.bool_]
     for rows, path, each in zip(runs, paths, off, strict=True):
         alone[rows] = _come_back(path, each > far)
     return alone
+
+
+def _turns_back(motions: Motions, position: Array) -> NDArray[np.bool_]:
+    """(N,) where a joint turns back: what a drive takes off there for friction has the wrong side for a moment."""
+    back = np.zeros(len(position), dtype=np.bool_)
+    for run in motions.runs:
+        rows = np.flatnonzero(motions.run == run)
+        moved = np.sign(np.diff(position[rows], prepend=position[rows[0]]))
+        back[rows] = binary_dilation(np.diff(moved, prepend=moved[0]) != 0, iterations=READING.spike)
+    return back
 
 
 def _come_back(path: Array, far: NDArray[np.bool_]) -> NDArray[np.bool_]:
