@@ -48,7 +48,7 @@ def test_every_joint_and_link_has_its_share_with_a_name_that_is_true(world):
         assert {("link_mass", f"link {j}"), ("stribeck_friction", f"joint {j}"), ("unknown", f"joint {j}")} <= names
     assert also_allowed(("masses", "lines"), 2) == [("payload_error", "payload")]
     assert also_allowed(("rest",), 2) == [("coulomb_friction", "joint 1"), ("coulomb_friction", "joint 2")]
-    assert also_allowed(("late",), 2) == []
+    assert also_allowed(("late",), 2) == [("torque_delay", "all joints")]
 
 
 @pytest.mark.parametrize("name", [name for name in ALL if name not in ("noise", "pace")])

@@ -249,7 +249,8 @@ def also_allowed(broken: tuple[str, ...], n_joints: int) -> list[tuple[str, str]
     """Names that are as good as a blemish's own, of an arm with so many joints."""
     straight = {effect for name in broken for effect in AS_GOOD.get(name, ())}
     load = [("payload_error", "payload")] if "masses" in broken else []
-    return load + [(effect, f"joint {j + 1}") for effect in sorted(straight) for j in range(n_joints)]
+    clock = [("torque_delay", "all joints")] if "late" in broken else []  # all are late by the same
+    return load + clock + [(effect, f"joint {j + 1}") for effect in sorted(straight) for j in range(n_joints)]
 
 
 def paces_of(broken: tuple[str, ...], runs: int, rng: np.random.Generator) -> tuple[float, ...]:
