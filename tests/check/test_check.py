@@ -69,6 +69,7 @@ def test_a_mistake_of_one_run_is_named_with_its_run_however_few_rows_it_has(arm,
     assert problems(_runs(sound, other), arm) == []
 
 
+@pytest.mark.long
 def test_a_tool_that_sits_quite_elsewhere_in_a_run_is_a_moved_tool_and_no_other_robot(arm):
     rng = np.random.default_rng(3)
     tables = [

@@ -113,6 +113,7 @@ def test_a_wrist_that_was_held_hides_part_of_the_tool_and_no_more():
     assert "joint offset at joint 2" in (change.title, *change.alternatives)
 
 
+@pytest.mark.long
 def test_of_a_series_the_recording_from_which_on_it_changed():
     series = {
         "1": session(11),
@@ -128,6 +129,7 @@ def test_of_a_series_the_recording_from_which_on_it_changed():
     assert np.ptp(values[:2]) < 2e-4 < abs(values[2] - values[0])
 
 
+@pytest.mark.long
 def test_of_several_arms_the_one_that_is_unlike_the_others():
     arms = {name: session(20 + n, offsets={2: 4e-4} if name == "C" else {}) for n, name in enumerate("ABCD")}
     found = compare(ARM, arms, of_arms=True)
@@ -203,6 +205,7 @@ def test_another_base_and_tool_are_no_change_and_one_recording_is_none():
     assert content["format"] == "armscope comparison 1"
 
 
+@pytest.mark.long
 def test_what_is_left_of_a_recording_is_its_noise_once_the_change_is_taken_in():
     """Planted: noise of 0.03 mm in one and 0.06 mm in the other; 140 rows hold fewer free numbers than they have."""
     tables = {"a": session(61, rows=140), "b": session(62, rows=140, offsets={2: 1e-3}, noise_mm=0.06)}

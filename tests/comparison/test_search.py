@@ -16,6 +16,7 @@ def named(found):
     return {(each.effect, each.location) for each in found.changes}
 
 
+@pytest.mark.long
 def test_arms_that_differ_in_five_causes_do_so_in_either_order():
     """Beside what both share, the one of 60 rows counted as a noisy one, whose rows showed nothing: p was 1."""
     tables = {

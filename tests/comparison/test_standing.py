@@ -61,6 +61,7 @@ def test_what_moves_the_tool_by_less_than_noise_hides_is_not_named(zero):
     assert stands(*zero, replace(CHANGE, rms_mm=1.1 * least), [zero[1]], 100)
 
 
+@pytest.mark.long
 def test_what_else_changed_is_no_noise():
     """Seen: a drive whose interval was far from zero had no name, beside a zero that had moved the tool by far more."""
     moved = {2: 2e-3, 3: -2e-3, 5: 2.5e-4}

@@ -66,6 +66,7 @@ def test_what_lies_in_the_folder_is_an_input_and_never_overwritten(tmp_path):
     assert (folder / "robot.yaml").read_bytes() == before
 
 
+@pytest.mark.long
 def test_another_arm_in_a_later_folder_is_told(tmp_path):
     for name, source in (("before", "clean"), ("again", "clean"), ("after", "one-effect")):
         shutil.copytree(EXAMPLES / source, tmp_path / name)

@@ -68,6 +68,7 @@ def test_a_long_file_is_imported_and_checked_within_its_memory(long_file):
         assert (long - short) * 1024 < MOST_BYTES, took
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("end", [signal.SIGTERM, pytest.param(signal.SIGINT, marks=pytest.mark.long)])
 def test_an_import_that_is_ended_midway_leaves_nothing(long_file, end):
     command = [sys.executable, "-c", "from armscope.cli import main; main()"]

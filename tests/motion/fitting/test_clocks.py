@@ -62,6 +62,7 @@ def test_torques_of_another_clock_are_one_cause(shifted: MotionDiagnosis) -> Non
     assert "one time stamp" in cause.confirm
 
 
+@pytest.mark.long
 def test_torques_behind_one_low_pass_are_one_cause_as_late_as_it_makes_them() -> None:
     found = diagnose_motion(robot(), read_by(filtered)).verdict
     (cause,) = (each for each in found.effects if not each.minor)
@@ -69,6 +70,7 @@ def test_torques_behind_one_low_pass_are_one_cause_as_late_as_it_makes_them() ->
     assert cause.parameters[0].value == pytest.approx(2**0.5 / (2 * np.pi * FILTER_HZ), rel=0.15)
 
 
+@pytest.mark.long
 def test_joints_that_differ_have_a_delay_each() -> None:
     late = (0.004, 0.012, 0.02)
     found = diagnose_motion(robot(), read_by(lambda torque, j: later(torque, late[j]))).verdict
@@ -79,6 +81,7 @@ def test_joints_that_differ_have_a_delay_each() -> None:
         assert low < by < high
 
 
+@pytest.mark.long
 def test_one_late_joint_is_no_clock() -> None:
     found = diagnose_motion(robot(), read_by(lambda torque, j: later(torque, LATE_S) if j == 1 else torque)).verdict
     assert [each.location for each in found.effects if each.effect == "torque_delay"] == ["joint 2"]

@@ -57,6 +57,7 @@ AGAIN = "gain of a torque of one sign"
 """What may be either of two that are asked for."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", [pytest.param(kind, marks=[pytest.mark.long] * (kind == AGAIN)) for kind in CASES])
 def test_what_differs_in_some_runs_is_told_at_its_joint(kind: str) -> None:
     """It counted as noise that lasts, and nothing was missing: 8 of 8 simulated arms."""
@@ -77,6 +78,7 @@ def test_what_is_the_same_in_all_runs_differs_in_none() -> None:
     assert named == [("motor_constant", "joint 2")]
 
 
+@pytest.mark.long
 def test_of_a_single_run_nothing_differs() -> None:
     assert not differing_runs(diagnosed(2, lambda run, at, torque: 4.0 * (at > 0.5), runs=1).selected)
 

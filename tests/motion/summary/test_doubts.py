@@ -44,6 +44,7 @@ def test_a_size_that_no_two_paths_tell_is_undetermined(gives_way: MotionDiagnosi
     assert in_one_run.words == "it is there in run path 2 only: no other path tells its size"
 
 
+@pytest.mark.long
 def test_a_size_that_may_as_well_be_nothing_is_doubtful(gives_way: MotionDiagnosis) -> None:
     """A delay of -0.79 ms, known to 0.91, was told as a fifth of what a drive leaves, and nothing spoke against it."""
     late = Parameter("delay", "ms", -0.79, 0.46)

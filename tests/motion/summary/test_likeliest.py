@@ -36,5 +36,6 @@ def test_a_load_that_masses_without_a_name_may_be_is_the_likeliest_of_names(seed
     assert float(told[1]) == pytest.approx(world.mass, rel=0.15)
 
 
+@pytest.mark.long
 def test_nothing_is_likely_where_masses_are_as_stated() -> None:
     assert likeliest_in_words(diagnosed(World("none", 3, 1))[0].selected) == ""

@@ -35,6 +35,7 @@ def masses(share: float) -> list[FoundCause]:
     return [each for each in found.effects if each.parameters[0].name == "mass"]
 
 
+@pytest.mark.long
 def test_a_link_is_as_light_as_it_can_be() -> None:
     """Of 4 kg."""
     told = masses(-0.6)[0]

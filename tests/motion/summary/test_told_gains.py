@@ -50,6 +50,7 @@ def test_a_gain_beyond_what_is_stated_is_told(seed: int) -> None:
     assert low < GAIN - 1 < high
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 @pytest.mark.parametrize(("gain", "unsure"), [pytest.param(1.0, 0.015, marks=pytest.mark.long), (0.98, 0.03)])
 def test_gains_within_what_is_stated_have_no_name(seed: int, gain: float, unsure: float) -> None:
@@ -63,6 +64,7 @@ def of_unstated(gains: tuple[float, ...]) -> MotionDiagnosis:
     return diagnose_motion(robot(drives=[{"gain_nm_per_a": STATED}] * 3), currents, MotionSettings(cutoff=10.0))
 
 
+@pytest.mark.long
 def test_a_gain_that_nobody_was_sure_of_is_told_where_the_motion_is() -> None:
     found = of_unstated((1.0, 1.18, 1.0))
     (told,) = (each for each in found.verdict.effects if not each.minor)
@@ -75,6 +77,7 @@ def test_a_gain_that_nobody_was_sure_of_is_told_where_the_motion_is() -> None:
     assert "Nothing is missing" not in found.verdict.headline
 
 
+@pytest.mark.long
 def test_who_does_the_work_order_of_unstated_gains_reaches_what_it_promises(tmp_path: Path) -> None:
     """Nothing that changes the error is fitted along without a line that says what to enter."""
     found = of_unstated((1.15, 1.18, 1.12))
