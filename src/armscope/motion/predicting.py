@@ -14,7 +14,7 @@ from armscope.core.types import Array
 from armscope.motion.check import refuse_other_joints
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.clauses_of_changes import spells
-from armscope.motion.library.warmth import RUNNING
+from armscope.motion.library.warmth import is_while_running
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches
@@ -84,7 +84,7 @@ def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
     What the arm carried then, or read, no other motion has, nor the same path once more.
     """
     changes = [cause for cause in model.causes if cause.placed.cause in CHANGES]
-    warming = [cause for cause in model.causes if getattr(cause.placed.columns, "kind", "") in RUNNING]
+    warming = [cause for cause in model.causes if is_while_running(cause.placed.columns)]
     kept = tuple(cause for cause in model.causes if cause not in changes)
     notes = [
         f"Not in this prediction: {cause.placed} ({spells(cause.placed.scanned)}), which came and went while the "

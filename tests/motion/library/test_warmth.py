@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import savgol_filter
 
 from armscope.core.types import Array
 from armscope.motion.export import write_motion
@@ -49,6 +51,41 @@ def test_friction_that_falls_while_the_arm_runs_is_told_with_its_slope(stated: b
     rows.drop(columns=[name for name in rows if name.startswith("tau")]).to_csv(tmp_path / "other.csv", index=False)
     _, notes = predict_motions(tmp_path / "model.yaml", tmp_path / "other.csv")
     assert any("as at the end of the model's own motion: thermal friction at joint 2" in note for note in notes)
+
+
+def test_who_takes_off_what_the_card_says_has_the_friction_that_was_stated() -> None:
+    """Minutes counted over the runs of the table, one after the other."""
+    arm = robot(drives=[{"viscous_nm_s_rad": float(each)} for each in VISCOUS])
+    rows = table(robot(), 3, warming(1), runs=2, seconds=SECONDS)
+    (effect,) = diagnose_motion(arm, as_motions(rows), SETTINGS).verdict.effects
+    assert "Minutes are counted over the runs as they stand in the table" in effect.cure
+    told = re.search(r"stated and (\S+) ± .* × \(minutes of running − (\S+)\) (\S+) ± .*, times the speed", effect.cure)
+    assert told is not None
+    slope, middle, constant = (float(each.replace("−", "-")) for each in told.groups())
+    ran = rows["time_s"] + SECONDS * (rows["run"] == "path 2")
+    speed = rows.groupby("run")["q2_rad"].transform(lambda q: savgol_filter(q, 21, 3, deriv=1, delta=1 / 200.0))
+    rows["tau2_nm"] -= (slope * (ran / 60 - middle) + constant) * speed
+    assert diagnose_motion(arm, as_motions(rows), SETTINGS).verdict.effects == ()
+
+
+def in_steps(*more: float) -> Plant:
+    """Viscous friction of joint 2 that differs from run to run, and not within one."""
+    left = iter(more)
+
+    def plant(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        return next(left) * dq * [0, 1, 0]
+
+    return plant
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("steps", [(0, -0.6), (0, -0.6, 0), (0, -0.6, -0.2, -0.7)])
+def test_friction_that_differs_from_run_to_run_does_not_surely_change_with_time(steps: tuple[float, ...]) -> None:
+    """And what runs before and after say of a third makes its torque no less known than friction alone does."""
+    rows = table(robot(), 3, in_steps(*steps), runs=len(steps), seconds=SECONDS)
+    verdict = diagnose_motion(robot(), as_motions(rows), SETTINGS).verdict
+    assert all(effect.doubt for effect in verdict.effects)
+    assert verdict.held_out.model < 1.15 * verdict.held_out.background
 
 
 def test_one_run_alone_does_not_tell_time_from_where_it_went() -> None:

@@ -42,10 +42,13 @@ def with_warmth(fitted: Fitted) -> str:
     slope, *constant = fitted.parameters
     dry = slope.name.startswith("dry")
     middle = fitted.of_law[1 if dry else 0]
-    since = f"(minutes of running − {middle:.3g})" if slope.name.endswith("minute") else ""
-    told = " ".join([f"{amount(slope, sign=True)} × {since or f'(temperature − {middle:.4g} °C)'}", *_signed(constant)])
+    running = slope.name.endswith("minute")
+    since = f"(minutes of running − {middle:.3g})" if running else f"(temperature − {middle:.4g} °C)"
+    told = " ".join([f"{amount(slope, sign=True)} × {since}", *_signed(constant)])
+    counted = " Minutes are counted over the runs as they stand in the table, without pauses between them." * running
     what, follows = ("dry", "sign of the speed") if dry else ("viscous", "speed")
-    return f"{fitted.in_general}: {what} friction as stated and {told}, times the {follows}."
+    known = "stated" if constant else "fitted"
+    return f"{fitted.in_general}: {what} friction as {known} and {told}, times the {follows}.{counted}"
 
 
 def rubbing(fitted: Fitted) -> str:

@@ -11,6 +11,11 @@ RUNNING = ("speed while running", "side while running")
 """Laws of how long the arm has run, which is known of the motion alone to which they were fitted."""
 
 
+def is_while_running(law: object) -> bool:
+    """Whether a cause's columns follow how long the arm has run."""
+    return getattr(law, "kind", "") in RUNNING
+
+
 def warmth(m: Moment, joint: int) -> Array:
     """(N,) deg C of a joint; whoever uses a law of it has made sure that it is recorded."""
     assert m.signals.temperature is not None

@@ -208,7 +208,7 @@ class ReadingRules(Constants):
     far_off: float = constant(
         12.0,
         "times farther from its neighbours than is usual that a reading must be to stand alone",
-        "judgement: four times what noise with long tails does",
+        "measured: up to 10 times in 20 x 5,000 samples of noise with Student's tails, three degrees of freedom",
     )
     back: float = constant(
         0.15, "of how far it is off, within which a channel is back after it", "judgement: a blow rings on"

@@ -22,6 +22,7 @@ from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes import gate_of
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.for_a_while import there
+from armscope.motion.library.warmth import is_while_running
 from armscope.motion.verdict import HeldOutMotion, Step, relative
 
 
@@ -91,12 +92,16 @@ def _of_the_rest(selected: SelectedCauses, held: tuple[int, ...]) -> Problem:
 
 
 def _of_all_runs(selected: SelectedCauses, problem: Problem, held: tuple[int, ...]) -> Problem:
-    """Without what is there in the only run that is left: there it is the same as in all, and foretells nothing."""
+    """Without what foretells nothing of the run that is held out, unless all runs together ask for it.
+
+    What is there in the only run that is left is the same as in all. What changes while the arm runs is foretold from
+    runs before or after: where friction differs from run to run for another reason, that is by far too much.
+    """
     left = set(selected.rows.run[~np.isin(selected.block, held)].tolist())
     placed, chosen, space = selected.rows.layout.placed, selected.best.candidates, problem.space
+    idle = {n for n, each in enumerate(placed) if left <= set(each.runs) or is_while_running(each.columns)} - chosen
     candidates = tuple(
-        replace(each, competes=each.competes and (n in chosen or not left <= set(placed[n].runs)))
-        for n, each in enumerate(space.candidates)
+        replace(each, competes=each.competes and n not in idle) for n, each in enumerate(space.candidates)
     )
     return replace(problem, space=replace(space, candidates=candidates))
 
