@@ -168,7 +168,7 @@ def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
     made = []
     for fold in parts:
         stated = fold.rows.nominal[fold.which]
-        friction = evaluate(fold.problem, (), _of_joints(fold.problem, fold.found), fold.found.noise)
+        friction = evaluate(fold.problem, (), of_joints(fold.problem.space, fold.found.background), fold.found.noise)
         background, model = (stated + _modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
         made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
     return tuple(made)
@@ -237,7 +237,7 @@ def waterfall(
     states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
     steps = []
     for label, members, masses in states:
-        background = best.background if masses else _of_joints(selected.problem, best)
+        background = best.background if masses else of_joints(selected.space, best.background)
         chosen = tuple(by_candidate[c] for c in members)
 
         whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
@@ -247,11 +247,6 @@ def waterfall(
             Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
         )
     return tuple(steps)
-
-
-def _of_joints(problem: Problem, found: Hypothesis) -> BackgroundSizes:
-    """Friction and rotors with all that every joint has: how its friction changes sides is no error of masses."""
-    return of_joints(problem.space, found.background)
 
 
 def _held_near(selected: SelectedCauses) -> str:
