@@ -28,9 +28,9 @@ def test_rows_that_look_like_bad_shots_are_named(arm: Any) -> None:
     rows = [SuspectRow("4", "", 1000882.07, 1e-28), *(SuspectRow(str(n), "b", 0.5123, 0.1) for n in range(7))]
     assert notes(arm) == []
     assert notes(arm, suspects=rows[:2]) == [
-        "rows that look like bad shots, and count for little: 4 (1000882 mm off), b: 0 (0.512 mm off)"
+        "rows that look like bad shots, and count for little: 4 (1000882 mm off), b: 0 (0.51 mm off)"
     ]
-    assert notes(arm, suspects=rows)[0].endswith("b: 3 (0.512 mm off), ... (8 in all: suspects.csv)")
+    assert notes(arm, suspects=rows)[0].endswith("b: 3 (0.51 mm off), ... (8 in all: suspects.csv)")
 
 
 def test_where_rows_are_too_few_it_is_said_how_many_are_needed(arm: Any) -> None:

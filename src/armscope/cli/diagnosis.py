@@ -147,6 +147,7 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     """What stands beside the answer: the check's doubts, what makes it impossible, rows that look like bad shots."""
     from armscope.check.preconditions import rows_needed
     from armscope.check.suspicion import BESIDE
+    from armscope.core.numerals import rounded
     from armscope.verdict.payload_place import of_payloads
 
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
@@ -155,13 +156,9 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     if any(each.kind == "fewer rows than parameters" for each in obstacle):
         yield f"of these runs and targets a diagnosis needs {rows_needed(arm, table)} rows at least."
     if suspects := verdict.suspects:
-        rows = [f"{f'{row.run}: ' if row.run else ''}{row.id} ({_rounded(row.residual_mm)} mm off)" for row in suspects]
+        rows = [f"{f'{row.run}: ' if row.run else ''}{row.id} ({rounded(row.residual_mm)} mm off)" for row in suspects]
         more = f", ... ({len(rows)} in all: suspects.csv)" if len(rows) > MOST_NAMED else ""
         yield f"rows that look like bad shots, and count for little: {', '.join(rows[:MOST_NAMED])}{more}"
-
-
-def _rounded(size: float) -> str:
-    return f"{size:.0f}" if size >= 100 else f"{size:.3g}"
 
 
 def _refuse_of_the_other(options: dict[str, Any], table: Path, moving: bool) -> None:
