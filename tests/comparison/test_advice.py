@@ -10,9 +10,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from armscope.comparison import compare
-from armscope.comparison.remedies import remedy_of
+from armscope.comparison.remedies import _as_a_wave, remedy_of
+from armscope.verdict.effects import Parameter
 from tests.comparison.test_changes import ARM, session
 from tests.comparison.test_remedies import CHANGE, FOUND
 from tests.comparison.worlds import off, recorded
@@ -86,3 +89,19 @@ def test_a_zero_on_the_other_side_is_mended_by_what_it_is_now():
     told = remedy_of(FOUND, beyond)
     assert told.instruction.startswith("Reset the zero of joint 3: it is off by −0.0286° (−0.50 mrad ± 0.20)")
     assert "Taken back" not in told.instruction
+
+
+@given(st.floats(-math.pi, math.pi), st.floats(1e-5, 1e-2), st.integers(1, 8))
+def test_a_wave_that_changed_is_taken_off_by_the_numbers_that_its_formula_names(phase, size, count):
+    """commanded = wanted - amplitude x cos(per_turn x wanted - phase): without them the formula said nothing."""
+    parts = (f"cosine_{count}", size * math.cos(phase)), (f"sine_{count}", size * math.sin(phase))
+    amplitude, per_turn, told = _as_a_wave([Parameter(name, "rad", value, 1e-6) for name, value in parts])
+    angle = np.linspace(-3, 3, 40)
+    wave = parts[0][1] * np.cos(count * angle) + parts[1][1] * np.sin(count * angle)
+    assert amplitude.value * np.cos(per_turn.value * angle - told.value) == pytest.approx(wave, abs=1e-9 * size + 1e-15)
+    assert amplitude.stderr == pytest.approx(1e-6)
+    assert _as_a_wave([Parameter("cosine_rx", "rad", 1e-3, 1e-6)] * 2) == []
+
+
+def test_a_chance_that_numbers_do_not_hold_is_not_told_as_none():
+    assert "p < 1e-300" in replace(FOUND, p_nothing_changed=0.0).headline

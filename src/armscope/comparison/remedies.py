@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -58,7 +59,7 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     elif known is not ANOTHER_LOAD and (change.is_less or change.is_hidden):  # a load is weighed, not taken back
         return Remedy(known.physics, _why(found, change), "", _nothing_to_mend(change), "")
     instruction = known.cure.instruction.format_map(_words(known, change.location, numbers, verb))
-    rule = with_numbers(known.cure.rule.replace("`", ""), numbers, change.effect)
+    rule = with_numbers(known.cure.rule.replace("`", ""), [*numbers, *_as_a_wave(numbers)], change.effect)
     return Remedy(known.physics, _why(found, change), known.confirm, f"{instruction}{worth}", rule)
 
 
@@ -104,6 +105,25 @@ def difference_of(number: Valued) -> Parameter:
     """A number's change as a parameter, with the standard error that its interval stands for."""
     low, high = number.interval_95
     return Parameter(number.name, number.unit, number.difference, (high - low) / 2 / INTERVAL)
+
+
+def _as_a_wave(numbers: Sequence[Parameter]) -> list[Parameter]:
+    """Amplitude, count and phase of what is told as one cosine and one sine; none of what is no single wave."""
+    parts = {each.name.partition("_")[0]: each for each in numbers}
+    if len(numbers) != len(parts) or set(parts) != {"cosine", "sine"}:
+        return []
+    cosine, sine = parts["cosine"], parts["sine"]
+    count = cosine.name.partition("_")[2]
+    if not count.isdigit():
+        return []
+    size = math.hypot(cosine.value, sine.value) or math.nan
+    along, across = np.array([[cosine.value, sine.value], [sine.value, cosine.value]]) / size
+    errors = np.array([cosine.stderr, sine.stderr])
+    return [
+        Parameter("amplitude", cosine.unit, size, float(np.linalg.norm(along * errors))),
+        Parameter("per_turn", "", float(count), math.nan),
+        Parameter("phase", "rad", math.atan2(sine.value, cosine.value), float(np.linalg.norm(across * errors)) / size),
+    ]
 
 
 def _why(found: Comparison, change: Change) -> str:

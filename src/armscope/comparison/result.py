@@ -174,7 +174,8 @@ class Comparison:
     @property
     def headline(self) -> str:
         """The answer in one sentence."""
-        chance = f"p = {self.p_nothing_changed:.2g}"
+        p = self.p_nothing_changed
+        chance = f"p = {p:.2g}" if p else "p < 1e-300"  # below what numbers hold; nothing is certain
         nothing = "all are alike" if self.of_arms else "nothing changed"
         said = f"{self.told} ({chance} that {nothing})." if self.changes else ""
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
