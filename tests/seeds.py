@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 
-def seeds(first: int, *others: int) -> list[Any]:
-    """What a test of arms that differ by their seeds is parametrised by."""
+def seeds(first: Any, *others: Any) -> list[Any]:
+    """What a test of arms that differ by their seeds, or by another case of one claim, is parametrised by."""
     return [first, *(pytest.param(seed, marks=pytest.mark.long) for seed in others)]
 
 

@@ -33,7 +33,7 @@ def entered(told):
 
 
 @pytest.mark.parametrize("seed", seeds(1, 5))
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("sign", seeds(1, -1))
 @pytest.mark.parametrize("kind", WORLDS)
 def test_no_advice_makes_the_arm_worse(kind, sign, seed):
     before, after = (sign * size for size in WORLDS[kind])

@@ -65,7 +65,7 @@ TOGETHER = {
 """The same by arms: each is asked for alone by the long run."""
 
 
-@pytest.mark.parametrize("name", TOGETHER)
+@pytest.mark.parametrize("name", seeds(*TOGETHER))
 def test_what_was_planted_together_is_found_and_nothing_else(name: str) -> None:
     arm, table = planted(name, TOGETHER[name], 100, 0.02, seed=21)
     verdict = diagnose(arm, table, QUICK)

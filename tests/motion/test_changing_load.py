@@ -57,6 +57,7 @@ def test_what_is_picked_up_is_told_with_its_moment_and_size(
     assert found.verdict.held_out.model < 0.5 * found.verdict.held_out.background
 
 
+@pytest.mark.long
 def test_the_model_file_holds_it_and_a_prediction_elsewhere_says_that_it_does_not(
     picked_up: tuple[World, MotionDiagnosis, Motions], tmp_path: Path
 ) -> None:

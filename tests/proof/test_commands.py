@@ -56,6 +56,7 @@ def test_every_step_leaves_what_the_next_one_reads_and_a_report(proof):
     assert 0.9 < worlds["held_out_ratio"][0] < 50
 
 
+@pytest.mark.long
 def test_a_batch_gives_a_world_the_verdict_that_armscope_diagnose_gives_it_alone(proof, tmp_path):
     (world,) = (proof / "visible" / BATCH).glob("[!.]*")
     options = ("--resamples", 0, "--no-cross-validation", "--no-report")

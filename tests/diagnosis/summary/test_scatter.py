@@ -62,6 +62,7 @@ def test_play_is_sized_by_the_order_of_rows(without_sides: Diagnosis) -> None:
     assert IN_ORDER in without_sides.headline
 
 
+@pytest.mark.long
 def test_whoever_writes_the_sides_down_as_told_gets_the_play_named(
     arm: Arm, without_sides: Diagnosis, tmp_path: Path
 ) -> None:

@@ -46,6 +46,7 @@ def test_a_gas_spring_is_a_balancer_mounted_as_it_is(kind: str, seed: int) -> No
     assert np.cos(apart) > 0
 
 
+@pytest.mark.long
 def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
     """One standard deviation away either way, with all else fitted and the best of the mount's other number."""
     (world, found), spring = asked("over", 3, 4), SPRINGS["over"]

@@ -59,6 +59,7 @@ def test_nothing_else_of_friction_over_speed_is_a_wide_change(plant: Plant | Non
     assert widths(plant) is None
 
 
+@pytest.mark.long
 def test_a_wide_change_of_sides_has_no_name_and_is_in_the_model_file(tmp_path: Path) -> None:
     found = diagnose_motion(robot(), moved(robot(), 3, wide))
     assert found.verdict.answer == "nothing missing"

@@ -193,7 +193,7 @@ CASES = {
 }
 
 
-AGAIN = ("dry", "viscous", "centre of the last", "payload", "delay", "centre", "inertia", "gravity")
+AGAIN = ("dry", "viscous", "offset", "load", "centre of the last", "payload", "delay", "centre", "inertia", "gravity")
 """Cards like another's: as the rotor's, one more number of a drive; of an easier case; or a slow one."""
 
 

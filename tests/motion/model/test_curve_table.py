@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+import pytest
 
 from armscope.core.types import Array
 from armscope.motion.library.remedies_of_curves import unit_of
@@ -46,6 +47,7 @@ def test_a_cables_curve_is_added_as_it_stands_in_the_file() -> None:
     assert missed(added, cabled(q, dq, ddq, q)[:, 1], dq[:, 1]) < 0.15
 
 
+@pytest.mark.long
 def test_stops_are_taken_along_as_the_card_says() -> None:
     found = diagnose_motion(robot(), moved(robot(), 1, clinging, seconds=10.0), MotionSettings(cutoff=10.0))
     rows = cured(found, "unknown", "stop")
