@@ -31,7 +31,7 @@ def motion_figure(found: Excitation, table: pd.DataFrame) -> Figure:
                 share = values / unit[motor] if known[motor] else values / max(float(np.abs(values).max()), 1e-12)
                 style = {"linestyle": LINES[motor % len(LINES)], "label": f"joint {motor + 1}"}
                 panel.plot(table["time_s"], share, linewidth=1.1, **style)
-            panel.set_ylabel(label if known.all() else f"{label[: label.index('/')]}/ largest (no limit stated)")
+            panel.set_ylabel(label if known.all() else f"{label[: label.index('/')]}/ largest\n(no limit stated)")
             if "limit" in label:
                 panel.set_ylim(-1.08, 1.08)
                 for edge in (-1, 1):
