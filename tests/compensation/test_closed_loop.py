@@ -1,5 +1,6 @@
 """The loop closed on arms whose physics the models never saw: MuJoCo worlds, the paper's arm with wrong geometry."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -44,8 +45,9 @@ class Loop:
         spec = next(spec for spec in catalogue(11, "small") if spec.id == name)
         visible = folder.build(spec, home, ROBOTS) / "visible"
         self.arm, self.rows = load_arm(visible / "robot.yaml"), read_recordings(visible / "recordings.csv")
-        self.model = diagnose(self.arm, self.rows, Settings(0, False, 0, False)).model
-        self.identified = identified_on(self.arm, self.rows)
+        found = diagnose(self.arm, self.rows, Settings(0, False, 0, cross_validation=True))
+        self.model = found.model
+        self.identified = identified_on(self.arm, self.rows, found.held_out.after)
         self.virtual, self.sigma = conceal(spec, ROBOTS), spec.sigma_mm
         angles = self.rows.motor_angles
         self.start = angles[np.argmin(np.sum((angles - angles.mean(axis=0)) ** 2, axis=1))]
@@ -86,6 +88,8 @@ def test_a_concealed_arm_follows_the_commands_to_within_its_noise(name, tmp_path
     after = loop.miss(result.commands)
     frames_only = loop.miss(loop.commands(replace(loop.model, parts=(), background=())).commands)
     assert after < 1.3 * loop.sigma
+    (told,) = re.findall(r"rows that took no part were missed by (\S+) mm RMS of the distance", " ".join(result.notes))
+    assert np.sqrt(3) * after == pytest.approx(float(told), rel=0.2), "noise included in both"
     assert loop.miss(result.nominal) > 4 * after  # of the arm alone: where on the tool one measures is no error of it
     assert frames_only > 2 * after  # the negative control: frames, but none of the physics
 

@@ -8,7 +8,14 @@ import pytest
 
 from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.path import as_path
-from armscope.compensation.physical import drivers_of, identified_on, missing_context, with_torques
+from armscope.compensation.physical import (
+    drivers_of,
+    identified_on,
+    load_identified,
+    missing_context,
+    save_identified,
+    with_torques,
+)
 from armscope.compensation.task import Options
 from armscope.physics.effect import Driver, Part
 from armscope.physics.model import Base, FittedModel
@@ -94,6 +101,15 @@ def test_context_that_no_row_holds_was_never_recorded():
     empty = np.full(60, np.nan)
     none = identified_on(arm, replace(rows, payload=empty, time=empty))
     assert none.to_dict() == identified_on(arm, replace(rows, payload=None, time=None)).to_dict()
+
+
+def test_how_well_rows_that_took_no_part_were_met_travels_with_the_model(tmp_path):
+    _, known = physical()
+    assert known.held_out_mm is None
+    save_identified(tmp_path / "domain.json", replace(known, held_out_mm=0.05))
+    assert load_identified(tmp_path / "domain.json").held_out_mm == 0.05
+    save_identified(tmp_path / "domain.json", known)
+    assert load_identified(tmp_path / "domain.json").held_out_mm is None
 
 
 def test_a_drift_is_not_continued_into_another_day():

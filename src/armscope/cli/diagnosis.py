@@ -126,7 +126,7 @@ def diagnose(
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)
-        save_identified(output / DOMAIN, identified_on(verdict.model.arm, verdict.recordings))
+        save_identified(output / DOMAIN, identified_on(verdict.model.arm, verdict.recordings, verdict.held_out.after))
         if report:
             from armscope.report.pages.diagnosis import write_report
 

@@ -60,6 +60,7 @@ class IdentifiedContent(Strict):
     payload_kg: tuple[Number, Number] | None
     payload_left_out: bool = False
     time_s: tuple[float, float] | None
+    held_out_mm: Annotated[float, Field(ge=0, le=1e9)] | None = None
     torque_weights: tuple[Numbers, ...] | None
     domain: DomainContent
 

@@ -41,6 +41,7 @@ class Identified:
         time_s: first and last, where recorded.
         torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
         payload_left_out: whether some rows stated no payload where others did: the model took it for none.
+        held_out_mm: how well rows that took no part were met, RMS of the distance, noise included; None: not known.
     """
 
     arm: str
@@ -49,6 +50,7 @@ class Identified:
     time_s: tuple[float, float] | None = None
     torque_weights: Array | None = None
     payload_left_out: bool = False
+    held_out_mm: float | None = None
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
@@ -68,13 +70,26 @@ class Identified:
             "payload_kg": None if self.payload_kg is None else list(self.payload_kg),
             **({"payload_left_out": True} if self.payload_left_out else {}),
             "time_s": None if self.time_s is None else list(self.time_s),
+            **({} if self.held_out_mm is None else {"held_out_mm": self.held_out_mm}),
             "torque_weights": None if self.torque_weights is None else self.torque_weights.tolist(),
             "domain": self.domain.to_dict(),
         }
 
 
-def identified_on(arm: Arm, recordings: Recordings) -> Identified:
-    """What the recordings of a diagnosis, as it used them, say about where its model holds."""
+def identified_on(arm: Arm, recordings: Recordings, per_axis_mm: float = np.nan) -> Identified:
+    """What the recordings of a diagnosis, as it used them, say about where its model holds.
+
+    Args:
+        arm: the nominal arm.
+        recordings: as the diagnosis used them.
+        per_axis_mm: RMS per axis on rows that took no part; NaN where it is not known.
+
+    Returns:
+        The range of angles and context, and how well the model foretells there.
+
+    Raises:
+        InputError: the recordings are of another arm.
+    """
     recordings.check_motors(arm.name, arm.n_motors)
     names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
     columns = [recordings.motor_angles]
@@ -88,7 +103,9 @@ def identified_on(arm: Arm, recordings: Recordings) -> Identified:
     domain = Domain.of(np.concatenate(columns, axis=1), names, units)
     empty = np.zeros(0) if recordings.payload is None else np.isnan(recordings.payload)
     left_out = bool(empty.any() and not empty.all())
-    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights, left_out)
+    held_out = np.sqrt(3) * per_axis_mm
+    known = float(held_out) if np.isfinite(held_out) else None
+    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights, left_out, known)
 
 
 def _span(values: Array | None) -> tuple[float, float] | None:
@@ -118,6 +135,7 @@ def load_identified(path: Path | str) -> Identified:
         content.time_s,
         None if weights is None else np.array(weights, dtype=float),
         content.payload_left_out,
+        content.held_out_mm,
     )
 
 

@@ -262,7 +262,9 @@ def _identified(model: Model) -> Identified | None:
     """What the recordings of a model held, where they are known."""
     if isinstance(model, str | Path):
         return identified_beside(Path(model))
-    return identified_on(model.model.arm, model.recordings) if isinstance(model, Diagnosed) else None
+    if not isinstance(model, Diagnosed):
+        return None
+    return identified_on(model.model.arm, model.recordings, model.held_out.after)
 
 
 def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
