@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from armscope.cli import app
 from armscope.comparison import Change, Comparison, Left, Seen, Valued, compare
 from armscope.comparison.constants import SHARED
+from armscope.comparison.noisier import Noisier, Scatter
 from armscope.report.pages.changes import LEFT_OPEN, first_to_last, in_odds, recordings_table, write_changes
 from tests.comparison.test_changes import ARM, session
 from tests.report.test_dark_pages import CHROMIUM
@@ -49,6 +50,16 @@ def test_a_change_is_told_with_its_numbers_and_what_to_do(tmp_path):
     assert json.loads((tmp_path / "comparison.json").read_text())["changes"][0]["kind"] == "grew"
     assert (tmp_path / "history.png").is_file()
     assert '<img src="data:image/svg+xml' in (tmp_path / "changes.html").read_text()
+
+
+@pytest.mark.parametrize("changes", [(CHANGE,), ()])
+def test_a_recording_of_which_more_is_left_is_told_with_its_joint(changes, tmp_path):
+    grown = Noisier("after", "before", 0.18, 0.03, 1e-20, (Scatter("joint 5", 3e-4),))
+    said = words_of(replace(FOUND, changes=changes, noisier=(grown,), p_nothing_changed=0.4), tmp_path)
+    assert '"after" is left with 0.18 mm per axis whatever is fitted, "before" with 0.03 mm, as if joint 5' in said
+    assert "by 300 µrad or more" in said
+    assert "Nothing changed" not in said
+    assert json.loads((tmp_path / "comparison.json").read_text())["noisier"][0]["scatter"][0]["location"] == "joint 5"
 
 
 def test_what_cannot_be_told_apart_is_to_be_confirmed_first(tmp_path):

@@ -219,14 +219,15 @@ def _tell(result: Compensated) -> None:
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
         print(
-            f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS of the distance; corrected, the model expects "
-            f"{_or_less(left)} mm"
+            f"{reached.sum()} of {count} rows: predicted miss {missed:.4g} mm RMS of the distance; corrected, the "
+            f"model expects {_or_less(left)} mm"
         )
         if result.pose:
             turns = (result.uncorrected_turn, result.residual_turn)
             turned, left = (np.sqrt(np.mean(turn[reached] ** 2)) * 1e3 for turn in turns)
             print(
-                f"orientation: predicted error {turned:.4g} mrad RMS, corrected, the model expects {_or_less(left)} mrad"
+                f"orientation: predicted error {turned:.4g} mrad RMS; corrected, the model expects "
+                f"{_or_less(left)} mrad"
             )
         if outside < 0.005:
             print("all inside the identified range")

@@ -21,6 +21,7 @@ from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
+from armscope.comparison.noisier import noisier
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
 from armscope.comparison.search import likeliest_changes
@@ -71,6 +72,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         seen=_seen(model, everything, taken),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
+        noisier=noisier(names, families, model.left_over(taken), model.dispersion),
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
 

@@ -81,4 +81,15 @@ class SharedModelRules(Constants):
     )
 
 
-COMPARING, SHARED = ComparingRules(), SharedModelRules()
+@dataclass(frozen=True)
+class GrownRest(Constants):
+    """When more is left of a recording than of others."""
+
+    times: float = constant(
+        2.0,
+        "what is left of it, in standard deviations of the other",
+        "judgement: an instrument that stands twice as far away is as noisy; less is no finding",
+    )
+
+
+COMPARING, SHARED, GROWN = ComparingRules(), SharedModelRules(), GrownRest()

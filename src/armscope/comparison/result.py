@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 from armscope.comparison.constants import COMPARING
+from armscope.comparison.noisier import Noisier, told_of
 from armscope.core.numerals import shown_unit, size_of
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import capitalised, decimals_for, enumerated, places_in_words
 
-"""In which share of cases a change is named that "would be seen": convention."""
 UNLIKE = {
     "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",
     "grew": "is larger in {where} than in {others}", "shrank": "is smaller in {where} than in {others}",
@@ -149,6 +149,7 @@ class Comparison:
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
         left: what is left of each recording, by what is explained.
         seen: how far the zero of each joint must move to be seen, where nothing else changed.
+        noisier: recordings of which more is left than of others, whatever is fitted.
         other_load: that another load at the flange would look like the changes; "" where it would not.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
     """
@@ -166,6 +167,7 @@ class Comparison:
     seen: tuple[Seen, ...] = ()
     of_arms: bool = False
     other_load: str = ""
+    noisier: tuple[Noisier, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain data."""
@@ -184,8 +186,9 @@ class Comparison:
             said = f"{differs} ({among}; {chance} that {nothing}), and no cause that was tried can be what it was."
         elif not said and among:
             alike = "No arm is unlike the others" if self.of_arms else "Nothing changed"
+            alike = "No cause differs" if self.noisier else alike
             said = f"{alike} that these recordings show ({among}; {chance})."
-        return " ".join(filter(None, (said, self.other_load, self.not_comparable)))
+        return " ".join(filter(None, (said, told_of(self.noisier), self.other_load, self.not_comparable)))
 
     @property
     def told(self) -> str:

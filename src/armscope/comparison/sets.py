@@ -13,7 +13,11 @@ from armscope.check.preconditions import check_table
 from armscope.comparison.constants import COMPARING
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
+from armscope.fitting.design_matrix import point_columns
+from armscope.fitting.linearisation import linearised
+from armscope.physics.effect import Term
 from armscope.physics.frames import free_frames
+from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -110,6 +114,23 @@ def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:
 def _covered(table: Recordings) -> Array:
     payload = np.zeros(len(table)) if table.payload is None else np.nan_to_num(table.payload)
     return np.column_stack([table.motor_angles, payload])
+
+
+def columns_of_rows(model: FittedModel, table: Recordings, terms: Sequence[Term]) -> Array:
+    """(3N, p) columns of effects in the order of the rows, mm per SI unit.
+
+    Args:
+        model: the arm with frames.
+        table: N rows.
+        terms: the p effects.
+
+    Returns:
+        As tool points show them, base axes.
+    """
+    found = np.empty((len(table), 3, len(terms)))
+    for rows, posture in linearised(table).chunks(model):
+        found[rows] = point_columns(posture, terms).reshape(-1, 3, len(terms))
+    return found.reshape(-1, len(terms))
 
 
 _ROWS = ("motor_angles", "positions", "run", "target", "id")

@@ -12,17 +12,18 @@ from scipy.special import stdtrit
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
+from armscope.comparison.noisier import LeftOver
+from armscope.comparison.penalised import held_values, left_of_groups, variance_left
+from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
-from armscope.fitting.design_matrix import point_columns
-from armscope.fitting.linearisation import linearised, point_residuals
+from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.transfer import belongs_to_the_arm
-from armscope.inference.constants import NUMERICS
 from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 from armscope.measurement import robust
-from armscope.physics.effect import Placed, Term
+from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
-from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -40,8 +41,8 @@ class SharedModel:
         self.placed = [each for each in placed if len(each.terms) <= SHARED.terms and not each.nameless]
         frames = [term for each in free_frames(table, False) for term in each.terms]
         terms = [term for each in self.placed for term in each.terms]
-        columns = weight[:, None] * _columns(model, table, [*frames, *terms])
-        self.residual = weight * residual.reshape(-1)
+        columns = weight[:, None] * columns_of_rows(model, table, [*frames, *terms])
+        self.residual, self._moved = weight * residual.reshape(-1), motor_jacobians(model, table)
         self.frames, self.effects = columns[:, : len(frames)], columns[:, len(frames) :]
         size = np.sqrt(np.mean(self.effects**2, axis=0))
         self.scale = np.where(size > 0, SHARED.prior_mm / np.where(size > 0, size, 1), 0.0)
@@ -53,7 +54,7 @@ class SharedModel:
         self.weigh_recordings(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
         if (load := load_at_the_flange(arm, table)) is not None:
-            self._offer(load, _columns(model, table, load.terms))
+            self._offer(load, columns_of_rows(model, table, load.terms))
 
     def _offer(self, placed: Placed, columns: Array) -> None:
         """One more effect that may have changed, of columns (3N, q), and that is not among what is shared."""
@@ -80,12 +81,13 @@ class SharedModel:
             return
         self._reweigh(self._robust / self.weight)
         for _ in range(SHARED.weighings):
-            base, penalty = self._base(taken)
-            hat = np.linalg.solve(base.T @ base + np.diag(penalty), base.T)
-            square = (self.residual - base @ (hat @ self.residual)) ** 2
-            free = np.maximum(np.bincount(self.group, 1 - np.einsum("ij,ji->i", base, hat)), 1.0)
-            self._weigh(np.sqrt(np.bincount(self.group, square) / free + 1e-24))
+            left, free = self._left_of_each(taken)
+            self._weigh(np.sqrt(np.bincount(self.group, left**2) / free + 1e-24))
             self._noise = self._settled_noise()
+
+    def _left_of_each(self, taken: Sequence[Possible]) -> tuple[Array, Array]:
+        """(3N,) what is left beside changes, as rows are weighed, and (sets,) how many numbers of each are free."""
+        return left_of_groups(self.residual, *self._base(taken), self.group)
 
     def _weigh(self, noise: Array) -> None:
         """Give recordings weights by their noise (sets,), as multiples of those that they have."""
@@ -97,10 +99,25 @@ class SharedModel:
         self.weight, self.residual = self.weight * relative, self.residual * relative
         self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
 
+    def left_over(self, taken: Sequence[Possible]) -> list[LeftOver]:
+        """What is left of each recording, alone where it is long enough, and together beside the changes taken."""
+        weighed, free = self._left_of_each(taken)
+        left = []
+        for number, fewer in enumerate(free):
+            rows = self.group == number
+            together = own = (weighed[rows] / self.weight[rows]).reshape(-1, 3)
+            if self.weighed_alone:
+                alone = self._alone(number)
+                base = alone._base(())
+                own, fewer = alone._left_over(*base).reshape(-1, 3), alone._left(*base)[1]
+            left.append(LeftOver(own, float(fewer), together, self._moved[:, rows[::3]]))
+        return left
+
     def _alone(self, number: int) -> SharedModel:
         """One recording, with effects of its own."""
         rows = self.group == number
         alone = copy.copy(self)
+        alone.weight = self.weight[rows]
         alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
         alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
         alone._noise = alone._settled_noise()
@@ -217,12 +234,7 @@ class SharedModel:
 
     def _left_over(self, base: Array, penalty: Array) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
-        return np.asarray((self.residual - base @ self._values(base, penalty)) / self.weight)
-
-    def _values(self, base: Array, penalty: Array) -> Array:
-        """Of columns (3N, p) with penalties (p,), by least squares."""
-        stacked = np.vstack([base, np.diag(np.sqrt(penalty))])
-        return np.asarray(np.linalg.lstsq(stacked, np.concatenate([self.residual, np.zeros(len(penalty))]))[0])
+        return np.asarray((self.residual - base @ held_values(self.residual, base, penalty)) / self.weight)
 
     def own_values(self, number: int, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
         """An effect with a value of its own in every recording.
@@ -272,14 +284,7 @@ class SharedModel:
 
     def _left(self, base: Array, penalty: Array, gram: Array | None = None) -> tuple[float, float]:
         """Variance per number, and how many numbers are free, beside columns (of this gram) with penalties."""
-        gram = base.T @ base if gram is None else gram
-        penalty = np.maximum(penalty, NUMERICS.rounding * gram.diagonal())  # few rows are fitted exactly
-        half = lower_inverse(lower_cholesky(gram, penalty))
-        values = half.T @ (half @ (base.T @ self.residual))
-        left = self.residual - base @ values
-        used = len(penalty) - float(np.sum(half**2 @ penalty))
-        free = max(len(left) - used, 1.0)
-        return float((left @ left + values**2 @ penalty) / free), free
+        return variance_left(self.residual, base, penalty, gram)
 
     def _settled_noise(self) -> float:
         """The variance that the prior is weighed by, found with itself."""
@@ -290,11 +295,3 @@ class SharedModel:
             penalty[frames:] = self._noise
             self._noise = max(self._left(base, penalty, gram)[0], 1e-12)
         return self._noise
-
-
-def _columns(model: FittedModel, table: Recordings, terms: Sequence[Term]) -> Array:
-    """(3N, p) columns in the order of the rows."""
-    found = np.empty((len(table), 3, len(terms)))
-    for rows, posture in linearised(table).chunks(model):
-        found[rows] = point_columns(posture, terms).reshape(-1, 3, len(terms))
-    return found.reshape(-1, len(terms))

@@ -13,6 +13,7 @@ import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.constants import COMPARING, SHARED
+from armscope.comparison.noisier import told_of
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of, wave_part
 from armscope.core.files import write_json, write_table
@@ -79,6 +80,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         save_figure(history_figure(found), folder / FIGURE, formats=("png", "svg"))
     numbers = sum(len(each.parameters) for each in found.changes)
     tag, answer = _answer(found)
+    beside = " ".join(filter(None, (told_of(found.noisier), found.other_load, found.not_comparable)))
     first = f"{found.told}." if found.changes else found.headline.replace("p = ", "p\u00a0=\u00a0")
     write_page(
         folder / PAGE,
@@ -87,7 +89,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         found=found,
         headline=first,
         recorded=first_to_last(found.names),
-        rest=" ".join(filter(None, (found.other_load, found.not_comparable))) if found.changes else found.would_be_seen,
+        rest=beside if found.changes else found.would_be_seen,
         tag=tag,
         answer=answer,
         tiles=_tiles(found),
@@ -112,6 +114,8 @@ def _answer(found: Comparison) -> tuple[str, str]:
         return "fails", "unlike the others" if found.of_arms else "changed"
     if found.p_nothing_changed <= found.level:
         return "depends", "no cause found"
+    if found.noisier:
+        return "depends", "more is left"
     return "holds", "no difference seen" if found.of_arms else "no change seen"
 
 
