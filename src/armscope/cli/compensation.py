@@ -77,9 +77,10 @@ def compensate(
     from armscope.compensation.black_box import ErrorModel
     from armscope.compensation.compensate import compensate_black_box, compensate_physical
     from armscope.compensation.task import Options
-    from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD
+    from armscope.robot.constants import SEARCH
+    from armscope.robot.inverse import BEYOND_REACH
 
-    step = np.inf if separate_points else LARGEST_STEP_RAD
+    step = np.inf if separate_points else SEARCH.jump_rad
     options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
     if isinstance(fitted, ErrorModel):
         result = compensate_black_box(fitted, wanted, options)

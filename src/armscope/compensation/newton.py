@@ -16,7 +16,8 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.forward import Forward, Rows, ToolPose
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array, Indices
-from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortened, smallest_singular_value
+from armscope.robot.constants import SEARCH
+from armscope.robot.newton_steps import damping, least_turns, shortened, smallest_singular_value
 
 TOLERANCE_M = 1e-9
 ITERATIONS = 30
@@ -176,7 +177,7 @@ def _iterate(
         singular[at_work[done]] = smallest_singular_value(jacobian[done]) / arm_lever
         converged[at_work[done]] = True
         stuck = np.zeros(len(at_work), dtype=bool)
-        if steps % PATIENCE == 0:
+        if steps % SEARCH.patience == 0:
             stuck = size > best[at_work] / 2
             best[at_work] = size
         stays = ~done & ~stuck & np.isfinite(size)

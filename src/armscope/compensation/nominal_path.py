@@ -15,7 +15,8 @@ from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import POLE, Wanted, solve_commands
 from armscope.core.types import Array, Indices
 from armscope.robot import Arm
-from armscope.robot.inverse import BEYOND_REACH, LARGEST_STEP_RAD, PathSolution, follow_path
+from armscope.robot.constants import SEARCH
+from armscope.robot.inverse import BEYOND_REACH, PathSolution, follow_path
 
 KNOTS = {False: 400, True: 100}
 """How many points are solved one after the other, for positions and for full poses."""
@@ -27,7 +28,7 @@ def nominal_branch(
     wanted: Wanted,
     start: Array,
     held: Mapping[int, float] | None = None,
-    largest_step: float = LARGEST_STEP_RAD,
+    largest_step: float = SEARCH.jump_rad,
 ) -> PathSolution:
     """Motor angles of the nominal arm along a path, each as near as possible to the one before.
 

@@ -20,7 +20,7 @@ from armscope.core.inputs import InputError
 from armscope.core.parallel import piece_by_piece
 from armscope.core.types import Array, Indices
 from armscope.robot import Arm, tool_frames
-from armscope.robot.inverse import LARGEST_STEP_RAD
+from armscope.robot.constants import SEARCH
 
 LARGEST_CORRECTION_RAD = np.radians(3)
 """Errors of millimetres never ask for more, unless the arm is close to a pole."""
@@ -42,7 +42,7 @@ class Options:
     pose: bool = False
     start: Array | None = None
     allowed: float = ALLOWED
-    largest_step: float = LARGEST_STEP_RAD
+    largest_step: float = SEARCH.jump_rad
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from armscope.physics.scene import Posture, Scene
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.robot.kinematics import ROWS_AT_A_TIME
+from armscope.robot.constants import SEARCH
 
 FARTHEST_IN_REACHES, FARTHEST_TOOL_M = 3.0, 1.0
 """An arm's tool is never as far from the base: what puts it there is no model of it."""
@@ -152,7 +152,7 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
 
 def _pieces(recordings: Recordings) -> list[slice]:
     """All rows, some at a time: all that drives effects there takes some kilobytes a row."""
-    return [slice(start, start + ROWS_AT_A_TIME) for start in range(0, len(recordings), ROWS_AT_A_TIME)]
+    return [slice(start, start + SEARCH.rows_at_a_time) for start in range(0, len(recordings), SEARCH.rows_at_a_time)]
 
 
 def _posture(model: FittedModel, recordings: Recordings, at: slice) -> Posture:

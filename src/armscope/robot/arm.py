@@ -12,7 +12,8 @@ import pinocchio as pin
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.robot.arm_type import ArmType
-from armscope.robot.description import MOST_JOINTS, RobotDescription
+from armscope.robot.constants import ARMS
+from armscope.robot.description import RobotDescription
 from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
 
@@ -106,8 +107,8 @@ def build_arm(description: RobotDescription) -> Arm:
     """The arm of a description."""
     model = pinocchio_model(description)
     n_joints = model.njoints - 1
-    if n_joints > MOST_JOINTS:
-        rule = f"motors are called q1 ... q{MOST_JOINTS}, and no chain of an arm is that long"
+    if n_joints > ARMS.most_joints:
+        rule = f"motors are called q1 ... q{ARMS.most_joints}, and no chain of an arm is that long"
         raise InputError(description.urdf or description.name, "", f"{n_joints} joints in a chain", rule)
     if description.dh is None:
         _check_motors(description, model)

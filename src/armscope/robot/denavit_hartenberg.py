@@ -8,11 +8,8 @@ from pydantic import ValidationError
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
+from armscope.robot.constants import AXIS
 from armscope.robot.description import DH, DHRow, LinkMass, RobotDescription
-
-PARALLEL = 1e-6
-"""Sine of the angle between two axes below which they count as parallel: the rows of nearly parallel axes run away."""
-MM = 1e3
 
 
 def row_twist(arm: Arm, joint: int, kind: str) -> tuple[str, Array]:
@@ -38,7 +35,7 @@ def row_twist(arm: Arm, joint: int, kind: str) -> tuple[str, Array]:
     row = arm.description.dh.joints[joint - 1]
     if kind == "beta":
         twist[4] = 1.0
-        twist[0] = row.d_mm / MM if arm.is_modified_dh else 0.0
+        twist[0] = row.d_mm / 1e3 if arm.is_modified_dh else 0.0
         return f"joint {joint}" if arm.is_modified_dh else f"link {joint}", twist
     beta = 0.0 if arm.is_modified_dh else np.radians(row.beta_deg)
     twist[[0, 2] if kind == "a" else [3, 5]] = np.cos(beta), np.sin(beta)
@@ -85,7 +82,7 @@ def as_dh(arm: Arm) -> tuple[RobotDescription, Array]:
             "urdf": None,
             "tip": None,
             "hold_joints": {},
-            "tool_mm": _triple((np.linalg.inv(frames[-1]) @ tip)[:3] * MM),
+            "tool_mm": _triple((np.linalg.inv(frames[-1]) @ tip)[:3] * 1e3),
             "links": tuple(links) if arm.has_masses else None,
             "tool_load": None,
             "gravity_m_s2": _triple(base[:3, :3].T @ arm.gravity),
@@ -110,17 +107,17 @@ def _row(frame: Array, axis: Array) -> tuple[DHRow, Array]:
     point, next_z = axis[:3, 3], axis[:3, 2]
     normal = np.cross(z, next_z)
     sine = np.linalg.norm(normal)
-    if sine < PARALLEL:
+    if sine < AXIS.parallel:
         away = point - origin - ((point - origin) @ z) * z
         length = np.linalg.norm(away)
-        next_x = away / length if length > PARALLEL else x
+        next_x = away / length if length > AXIS.parallel else x
         d = 0.0
         next_origin = origin + away
     else:
         next_x = normal / sine
         # z d + next_x a - next_z s = point - origin
         d, a = np.linalg.solve(np.column_stack([z, next_x, -next_z]), point - origin)[:2]
-        if a < -PARALLEL:
+        if a < -AXIS.parallel:
             next_x, a = -next_x, -a
         next_origin = origin + d * z + a * next_x
     a = (next_origin - origin - d * z) @ next_x
@@ -129,14 +126,14 @@ def _row(frame: Array, axis: Array) -> tuple[DHRow, Array]:
     reached[:3, :3], reached[:3, 3] = np.column_stack([next_x, next_y, next_z]), next_origin
     theta = np.degrees(np.arctan2(np.cross(x, next_x) @ z, x @ next_x))
     alpha = np.degrees(np.arctan2(np.cross(z, next_z) @ next_x, z @ next_z))
-    row = DHRow(a_mm=float(a * MM), alpha_deg=float(alpha), d_mm=float(d * MM), theta_offset_deg=float(theta))
+    row = DHRow(a_mm=float(a * 1e3), alpha_deg=float(alpha), d_mm=float(d * 1e3), theta_offset_deg=float(theta))
     return row, reached
 
 
 def _in_frame(frame: Array, axis: Array, mass: float, centre: Array) -> LinkMass:
     """A link's mass with its centre in a D-H frame instead of the joint's."""
     moved = np.linalg.inv(frame) @ axis @ np.append(centre, 1.0)
-    return LinkMass(mass_kg=float(mass), com_mm=_triple(moved[:3] * MM))
+    return LinkMass(mass_kg=float(mass), com_mm=_triple(moved[:3] * 1e3))
 
 
 def _limits(arm: Arm) -> tuple[tuple[float, float], ...] | None:

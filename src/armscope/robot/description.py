@@ -11,42 +11,23 @@ from pydantic import AfterValidator, Field
 
 from armscope.core.inputs import Strict
 from armscope.core.types import Array
+from armscope.robot.constants import ARMS
 
 Vector = Annotated[tuple[float, float, float], Field(description="x, y, z")]
-Degrees = Annotated[float, Field(ge=-720, le=720)]
-LONGEST_MM = 20_000.0
-"""Of any length: the longest arms that are sold reach 4.7 m (FANUC M-2000iA), long-reach manipulators 10 to 20 m."""
-Millimetres = Annotated[float, Field(ge=-LONGEST_MM, le=LONGEST_MM)]
-Length = Annotated[float, Field(gt=0, le=LONGEST_MM)]
+Degrees = Annotated[float, Field(ge=-ARMS.degrees, le=ARMS.degrees)]
+Millimetres = Annotated[float, Field(ge=-ARMS.longest_mm, le=ARMS.longest_mm)]
+Length = Annotated[float, Field(gt=0, le=ARMS.longest_mm)]
 Point = tuple[Millimetres, Millimetres, Millimetres]
 
-MOST_JOINTS = 99
-"""Of a chain: motors are called q1 ... q99; the longest snake robots that are built have 30 to 40."""
-HEAVIEST_KG = 20_000.0
-"""The heaviest robot arm that is sold weighs 11,000 kg and carries 2,300 kg (FANUC M-2000iA/2300, data sheet)."""
-STRONGEST_GRAVITY = 12.0
-"""m/s2; on Earth 9.76 to 9.84 (International Gravity Formula 1980 and altitude); less on the Moon, none in orbit."""
-FINEST_MM, COARSEST_MM = 1e-4, 100.0
-"""1-sigma per axis: an interferometer on its stable table tells 0.1 um, an arm repeats a hundred times worse; what is
-coarser than 0.1 m measures no arm (indoor radio positioning is that coarse)."""
-LARGEST_RATIO = 1000.0
-"""Of an actuation: gears of arms reduce by 30 to 320 (harmonic and cycloidal drives, makers' catalogues)."""
-ROUNDED = 1e-3
-"""Inertias in files are rounded: the sum of two principal ones may fall short of the third by this share."""
-ROUNDED_AWAY = 1e-12
-"""Of the largest: so far below zero a principal inertia of zero is computed."""
 
-MOST_INERTIA_KG_M2 = 1e6
-"""Of a link: the heaviest arm's whole mass (11,000 kg) at its reach (4.7 m) is 2.4e5 kg m2."""
-
-Inertia = Annotated[float, Field(ge=-MOST_INERTIA_KG_M2, le=MOST_INERTIA_KG_M2)]
-Ratio = Annotated[float, Field(ge=-LARGEST_RATIO, le=LARGEST_RATIO)]
+Inertia = Annotated[float, Field(ge=-ARMS.most_inertia_kg_m2, le=ARMS.most_inertia_kg_m2)]
+Ratio = Annotated[float, Field(ge=-ARMS.largest_ratio, le=ARMS.largest_ratio)]
 
 
 def _on_earth(gravity: tuple[float, float, float]) -> tuple[float, float, float]:
     size = sum(value * value for value in gravity) ** 0.5
-    if size > STRONGEST_GRAVITY:
-        raise ValueError(f"gravity is 9.81 m/s2 on Earth, at most {STRONGEST_GRAVITY:g} anywhere, not {size:.4g}")
+    if size > ARMS.strongest_gravity:
+        raise ValueError(f"gravity is 9.81 m/s2 on Earth, at most {ARMS.strongest_gravity:g} anywhere, not {size:.4g}")
     return gravity
 
 
@@ -72,7 +53,7 @@ class DH(Strict):
         description="standard: Rz(theta) Tz(d) Tx(a) Rx(alpha); modified: Rx(alpha) Tx(a) Rz(theta) Tz(d)",
     )
     joints: tuple[DHRow, ...] = Field(
-        min_length=1, max_length=MOST_JOINTS, description="one row per joint of the chain, from the base"
+        min_length=1, max_length=ARMS.most_joints, description="one row per joint of the chain, from the base"
     )
 
 
@@ -91,7 +72,7 @@ def no_inertia_of_a_body(xx: float, yy: float, zz: float, xy: float, xz: float, 
         The rule that it breaks; "" where it breaks none beyond rounding. That of a point, all zeros, breaks none.
     """
     least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    if least >= -ROUNDED_AWAY * most and least + middle >= most * (1 - ROUNDED):
+    if least >= -ARMS.rounded_away * most and least + middle >= most * (1 - ARMS.rounded):
         return ""
     return f"no body has principal inertias {least:.4g}, {middle:.4g}, {most:.4g}: none < 0, none above the others' sum"
 
@@ -103,7 +84,7 @@ class LinkMass(Strict):
     is a point, which is all that statics needs.
     """
 
-    mass_kg: float = Field(ge=0, le=HEAVIEST_KG, description="kg")
+    mass_kg: float = Field(ge=0, le=ARMS.heaviest_kg, description="kg")
     com_mm: Point = Field(
         description="centre of mass x, y, z in the row's D-H frame: behind the joint, turning with it; mm"
     )
@@ -144,7 +125,7 @@ class Drive(Strict):
 class Instrument(Strict):
     """1-sigma per axis of the instrument and the robot's repeatability together."""
 
-    sigma_mm: float = Field(ge=FINEST_MM, le=COARSEST_MM, description="1-sigma per axis, mm")
+    sigma_mm: float = Field(ge=ARMS.finest_mm, le=ARMS.coarsest_mm, description="1-sigma per axis, mm")
 
 
 class Parallelogram(Strict):
@@ -186,7 +167,7 @@ class RobotDescription(Strict):
         default=None, description="one per motor; for arms in motion: what the drives add, and what they may do"
     )
     gravity_m_s2: Annotated[Vector, AfterValidator(_on_earth)] = Field(
-        default=(0.0, 0.0, -9.81), description="in the base frame, m/s2: z up stands, z down hangs"
+        default=ARMS.gravity, description="in the base frame, m/s2: z up stands, z down hangs"
     )
     joint_limits_deg: tuple[tuple[Degrees, Degrees], ...] | None = Field(
         default=None, description="one [low, high] per motor, degrees; a URDF brings its own"

@@ -11,18 +11,12 @@ from typing import Any, cast
 import yaml
 
 from armscope.core.inputs import InputError, load
+from armscope.robot.constants import ARMS, GUESSES
 from armscope.robot.description import RobotDescription
 from armscope.robot.library import is_nominal, nominal_description
 from armscope.robot.urdf_file import guess_chain, is_xml, root_of
 
-SHORTEST_ARM_MM = 10.0
-"""All lengths of a D-H table together: the smallest arms that are sold reach 200 mm and more (makers' data sheets)."""
-LARGEST_CENTRE_IN_METRES = 3.0
-"""Of arms up to 6 m a centre of mass in metres is below it; in mm, those of all links would lie within 3 mm of their
-frames' origins, as none of the library's arms has it."""
 QUARTER_TURN_RAD = math.pi / 2
-AS_WRITTEN_RAD = 2e-3
-"""pi/2 and pi written with two digits differ from themselves by so much."""
 
 
 def load_description(path: Path | str) -> RobotDescription:
@@ -92,7 +86,7 @@ def _refuse_other_units(description: RobotDescription, path: Path | str) -> None
     """
     rows = () if description.dh is None else description.dh.joints
     lengths = sum(abs(row.a_mm) + abs(row.d_mm) for row in rows)
-    if 0 < lengths < SHORTEST_ARM_MM:
+    if 0 < lengths < ARMS.shortest_mm:
         cure = "Are they metres? Then multiply a_mm and d_mm by 1000."
         raise InputError(
             path, "dh.joints", f"{lengths:.4g} mm", "all lengths of an arm together are 10 mm or more", cure
@@ -105,7 +99,7 @@ def _refuse_other_units(description: RobotDescription, path: Path | str) -> None
             rule = "this is a quarter or half turn in radians, and so are all others"
             raise InputError(path, f"dh.joints[{number}].{key}", angles[number], rule, cure)
     centres = [abs(value) for link in description.links or () for value in link.com_mm]
-    if lengths > LARGEST_CENTRE_IN_METRES * 100 and 0 < max(centres, default=0) <= LARGEST_CENTRE_IN_METRES:
+    if lengths > GUESSES.centre_in_metres * 100 and 0 < max(centres, default=0) <= GUESSES.centre_in_metres:
         rule = f"no centre of mass lies further than {max(centres):.3g} mm from its frame's origin"
         cure = "Are they metres? Then multiply com_mm by 1000."
         raise InputError(path, "links", f"{max(centres):.3g} mm", rule, cure)
@@ -122,4 +116,4 @@ def _are_quarter_turns_in_radians(angles: Sequence[float]) -> bool:
 
 def _quarters(angle: float) -> bool:
     quarters = round(angle / QUARTER_TURN_RAD)
-    return 1 <= abs(quarters) <= 4 and abs(angle - quarters * QUARTER_TURN_RAD) <= AS_WRITTEN_RAD
+    return 1 <= abs(quarters) <= 4 and abs(angle - quarters * QUARTER_TURN_RAD) <= GUESSES.as_written_rad

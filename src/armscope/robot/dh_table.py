@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from armscope.core.inputs import InputError, validate
+from armscope.robot.constants import GUESSES, PASTED
 from armscope.robot.description import RobotDescription
 
 HEADING = re.compile(r"\s*(.*?)[\s_]*[\[(]?(mm|m|deg|rad|°)?[\])]?\s*", re.DOTALL)
@@ -22,15 +23,6 @@ COLUMNS = {
 """What the columns are called; the last are no numbers of a row."""
 USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """The order where no header says one."""
-METRES_UP_TO = 10.0
-"""Lengths whose largest is below this are metres: an arm's longest link is above 10 mm and below 10 m."""
-RADIANS_UP_TO = 2 * math.pi + 1e-3
-AS_WRITTEN_RAD = 2e-3
-"""pi/2 and pi written with two digits differ from themselves by so much."""
-LONGEST_CELL = 64
-"""Characters: what is longer is no number and no heading, and isn't worth looking through."""
-MOST_CELLS = 32
-MOST_ROWS = 100
 
 Convention = Literal["standard", "modified"]
 
@@ -56,8 +48,8 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
         raise InputError(
             "D-H table", "", "nothing", "rows of a, alpha, d, theta are needed", "Paste them, end with Ctrl-D."
         )
-    if len(lines) > MOST_ROWS:
-        raise InputError("D-H table", "", f"{len(lines)} lines", f"the rows of an arm, at most {MOST_ROWS}")
+    if len(lines) > PASTED.rows:
+        raise InputError("D-H table", "", f"{len(lines)} lines", f"the rows of an arm, at most {PASTED.rows}")
     source: dict[str, str] = {}
     header = _cells(lines[0][1], lines[0][0])
     names: tuple[str, ...] = USUAL
@@ -83,12 +75,12 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
 def _cells(line: str, number: int) -> list[str]:
     separator = next((separator for separator in "|\t;," if separator in line), None)
     cells = line.split() if separator is None else [cell.strip() for cell in line.split(separator)]
-    if len(cells) > MOST_CELLS:
+    if len(cells) > PASTED.cells:
         raise InputError("D-H table", f"line {number}", f"{len(cells)} cells", "the four values of a D-H row")
     for cell in cells:
-        if len(cell) > LONGEST_CELL:
+        if len(cell) > PASTED.cell:
             raise InputError(
-                "D-H table", f"line {number}", cell, f"a number or a heading of at most {LONGEST_CELL} characters"
+                "D-H table", f"line {number}", cell, f"a number or a heading of at most {PASTED.cell} characters"
             )
     return cells
 
@@ -151,14 +143,14 @@ def _row(line: str, number: int, names: tuple[str, ...]) -> dict[str, float]:
 
 def _guess_length(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
     most = max(abs(row[name]) for row in rows for name in ("a_mm", "d_mm"))
-    unit = "m" if 0 < most < METRES_UP_TO else "mm"
+    unit = "m" if 0 < most < GUESSES.metres_up_to else "mm"
     source["dh lengths"] = f"guessed: {unit}, since the longest is {most:g}"
     return unit
 
 
 def _guess_angle(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
     most = max(abs(row.get(name, 0.0)) for row in rows for name in ("alpha_deg", "theta_offset_deg"))
-    unit = "rad" if 0 < most < RADIANS_UP_TO else "deg"
+    unit = "rad" if 0 < most < GUESSES.radians_up_to else "deg"
     source["dh angles"] = f"guessed: {unit}, since the largest is {most:g}"
     return unit
 
@@ -179,11 +171,15 @@ def _refuse_mixed_angles(rows: Sequence[dict[str, float]], numbers: Sequence[int
         for name in ("alpha_deg", "theta_offset_deg")
     ]
     line, name, most = max(angles, key=lambda each: abs(each[2]))
-    if abs(most) < RADIANS_UP_TO:
+    if abs(most) < GUESSES.radians_up_to:
         return
     for number, word, value in angles:
         quarters = round(value / (math.pi / 2))
-        if quarters and abs(value - quarters * math.pi / 2) < AS_WRITTEN_RAD and abs(value) < RADIANS_UP_TO:
+        if (
+            quarters
+            and abs(value - quarters * math.pi / 2) < GUESSES.as_written_rad
+            and abs(value) < GUESSES.radians_up_to
+        ):
             rule = f"this is {90 * quarters} degrees in radians, where {name} of line {line}, {most:g}, is in degrees"
             cure = f"Write {90 * quarters}, or say the unit in a header: a [mm], alpha [deg], d [mm], theta [deg]."
             raise InputError("D-H table", f"line {number}, {word}", f"{value:.6g}", rule, cure)

@@ -19,18 +19,11 @@ from scipy.spatial import cKDTree
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.robot.arm import Arm
+from armscope.robot.constants import SEARCH
 from armscope.robot.kinematics import chain, position_jacobian
 from armscope.robot.model import TIP
-from armscope.robot.newton_steps import PATIENCE, damping, least_turns, shortened
+from armscope.robot.newton_steps import damping, least_turns, shortened
 
-TOLERANCE_M = 1e-9
-ITERATIONS = 25
-LARGEST_STEP_RAD = 0.35
-"""A joint that turns further than this (20 degrees) between neighbouring points of a path has jumped."""
-
-LARGEST_NEWTON_STEP_RAD = 0.5
-
-CLOUD, STARTS_PER_CLOUD = 4000, 3
 BEYOND_REACH = "beyond reach"
 
 
@@ -79,7 +72,7 @@ def follow_path(
     targets: ArrayLike,
     start: ArrayLike | None = None,
     held: Mapping[int, float] | None = None,
-    largest_step: float = LARGEST_STEP_RAD,
+    largest_step: float = SEARCH.jump_rad,
 ) -> PathSolution:
     """Motor angles that bring the nominal tool point along ``targets``, each as near as possible to the one before.
 
@@ -142,7 +135,7 @@ class _Newton:
             found = self._solve(target, q, free)
             if found is None:
                 return None
-            outside = free & ((found < self.low - 1e-12) | (found > self.high + 1e-12))
+            outside = free & ((found < self.low - SEARCH.no_turn_rad) | (found > self.high + SEARCH.no_turn_rad))
             if not outside.any():
                 return found
             q = np.where(outside, np.clip(found, self.low, self.high), q)
@@ -153,22 +146,21 @@ class _Newton:
         if not free.any():
             return None
         q, checkpoint = previous.copy(), np.inf
-        for iteration in range(ITERATIONS):
+        for iteration in range(SEARCH.steps):
             point, jacobian = self._point_and_jacobian(q)
             gap = target - point
             size = float(np.sqrt(gap @ gap))
-            if size < TOLERANCE_M:
+            if size < SEARCH.tolerance_m:
                 return q
-            if iteration % PATIENCE == 0:
+            if iteration % SEARCH.patience == 0:
                 if size > checkpoint / 2:
                     return None
                 checkpoint = size
             jacobian = jacobian * free
-            # a millionth of a square metre per radian keeps the step finite where the arm is stretched out
             gram = jacobian @ jacobian.T
-            gram.flat[::4] += 1e-12
+            gram.flat[::4] += SEARCH.least_damping
             step = jacobian.T @ np.linalg.solve(gram, gap + jacobian @ (q - previous)) + previous - q
-            q = q + step * min(1.0, LARGEST_NEWTON_STEP_RAD / max(1e-12, float(np.abs(step).max())))
+            q = q + step * min(1.0, SEARCH.step_rad / max(SEARCH.no_turn_rad, float(np.abs(step).max())))
         return None
 
     def _point_and_jacobian(self, q: Array) -> tuple[Array, Array]:
@@ -195,7 +187,7 @@ def _reasons(
             continue
         excess = np.maximum(arm.limits[:, 0] - solution, solution - arm.limits[:, 1])
         broken = f"limit of joint {int(np.argmax(excess)) + 1}"
-        reasons[place] = broken if excess.max() > 1e-9 else _jump(solution, previous)
+        reasons[place] = broken if excess.max() > SEARCH.broken_limit_rad else _jump(solution, previous)
     return reasons
 
 
@@ -221,7 +213,7 @@ def _from_many_starts(arm: Arm, targets: Array, held: Mapping[int, float], near:
     clouds = [_with_held(_spread(arm, limits), held) for limits in (arm.limits, np.full_like(arm.limits, np.inf))]
     starts = [near[:, None]]
     for cloud in clouds:
-        _, nearest = cKDTree(chain(arm, cloud).tool).query(targets, k=STARTS_PER_CLOUD)
+        _, nearest = cKDTree(chain(arm, cloud).tool).query(targets, k=SEARCH.starts_per_cloud)
         starts.append(cloud[nearest])
     q = _with_held(np.concatenate(starts, axis=1), held)
     n_starts = q.shape[1]
@@ -229,7 +221,7 @@ def _from_many_starts(arm: Arm, targets: Array, held: Mapping[int, float], near:
     q = _unwound(arm, q).reshape(len(targets), n_starts, arm.n_motors)
     excess = np.maximum(0, np.maximum(arm.limits[:, 0] - q, q - arm.limits[:, 1])).max(axis=2)
     distance = np.abs(q - near[:, None]).max(axis=2)
-    cost = np.nan_to_num(np.where(excess > 1e-9, 1e3 + excess, 0) + distance * 1e-3, nan=np.inf)
+    cost = np.nan_to_num(np.where(excess > SEARCH.broken_limit_rad, 1e3 + excess, 0) + distance * 1e-3, nan=np.inf)
     chosen: Array = q[np.arange(len(targets)), np.argmin(cost, axis=1)]
     return chosen
 
@@ -238,12 +230,12 @@ def _solved(arm: Arm, goals: Array, q: Array, held: Mapping[int, float]) -> Arra
     """(N, m) solutions by damped Newton steps from ``q``, limits ignored; NaN for rows that stop coming closer."""
     q, free = q.copy(), np.array([motor + 1 not in held for motor in range(arm.n_motors)])
     at_work, checkpoint = np.arange(len(q)), np.full(len(q), np.inf)
-    for iteration in range(1, 4 * ITERATIONS + 1):
+    for iteration in range(1, 4 * SEARCH.steps + 1):
         frames = chain(arm, q[at_work])
         gap = goals[at_work] - frames.tool
         size = np.linalg.norm(gap, axis=1)
-        stays = size > TOLERANCE_M
-        if iteration % PATIENCE == 0:
+        stays = size > SEARCH.tolerance_m
+        if iteration % SEARCH.patience == 0:
             stuck = stays & (size > checkpoint[at_work] / 2)
             q[at_work[stuck]] = np.nan
             stays &= ~stuck
@@ -252,7 +244,9 @@ def _solved(arm: Arm, goals: Array, q: Array, held: Mapping[int, float]) -> Arra
         at_work, gap, size = at_work[stays], gap[stays], size[stays]
         if not len(at_work):
             return q
-        q[at_work] += shortened(least_turns(jacobian, gap, damping(size, 1e-14)), LARGEST_NEWTON_STEP_RAD)
+        q[at_work] += shortened(
+            least_turns(jacobian, gap, damping(size, SEARCH.least_damping_of_many)), SEARCH.step_rad
+        )
     q[at_work] = np.nan
     return q
 
@@ -269,7 +263,7 @@ def _spread(arm: Arm, limits: Array) -> Array:
     from scipy.stats import qmc  # takes half a second: seldom needed
 
     low, high = np.where(np.isfinite(limits), limits, [-np.pi, np.pi]).T
-    return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(CLOUD), low, high)
+    return qmc.scale(qmc.Halton(arm.n_motors, scramble=False).random(SEARCH.cloud), low, high)
 
 
 def _middle(arm: Arm) -> Array:

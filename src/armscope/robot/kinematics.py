@@ -15,6 +15,7 @@ from armscope.core.location import Location
 from armscope.core.rotations import cross, turned_by
 from armscope.core.types import Array
 from armscope.robot.arm import Arm
+from armscope.robot.constants import SEARCH
 
 Twists = Mapping[str, Array]
 
@@ -85,10 +86,6 @@ def chain(arm: Arm, motor_angles: Array, twists: Twists | None = None) -> Chain:
     return Chain(joint_rotation, joint_origin, link_rotation, link_origin, rotation, tool)
 
 
-ROWS_AT_A_TIME = 10_000
-"""All frames of so many poses take some ten megabytes."""
-
-
 def tool_frames(arm: Arm, motor_angles: Array) -> tuple[Array, Array]:
     """Tool points and orientations alone, at any number of poses: all frames of some of them at a time.
 
@@ -100,8 +97,8 @@ def tool_frames(arm: Arm, motor_angles: Array) -> tuple[Array, Array]:
         (N, 3) m and (N, 3, 3), in the base frame.
     """
     points, rotations = np.empty((len(motor_angles), 3)), np.empty((len(motor_angles), 3, 3))
-    for start in range(0, len(motor_angles), ROWS_AT_A_TIME):
-        at = slice(start, start + ROWS_AT_A_TIME)
+    for start in range(0, len(motor_angles), SEARCH.rows_at_a_time):
+        at = slice(start, start + SEARCH.rows_at_a_time)
         frames = chain(arm, motor_angles[at])
         points[at], rotations[at] = frames.tool, frames.tool_rotation
     return points, rotations

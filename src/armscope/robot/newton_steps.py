@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-
-PATIENCE = 6
-"""A search that has not halved its gap within so many steps is given up."""
-FAR_DAMPING, FARTHEST_M = 1e-6, 1.0
-"""Of J J' (m^2 per rad^2), per square metre of the gap: far from its goal a step need not be exact, but finite."""
+from armscope.robot.constants import SEARCH
 
 
 def damping(distance: Array, least: float) -> Array:
@@ -22,7 +18,7 @@ def damping(distance: Array, least: float) -> Array:
     Returns:
         (N,) to add to the diagonal of J J'.
     """
-    return np.asarray(FAR_DAMPING * np.minimum(distance**2, FARTHEST_M) + least)
+    return np.asarray(SEARCH.far_damping * np.minimum(distance**2, SEARCH.farthest_m2) + least)
 
 
 def least_turns(jacobian: Array, gap: Array, damped: Array) -> Array:
@@ -43,7 +39,7 @@ def least_turns(jacobian: Array, gap: Array, damped: Array) -> Array:
 
 def shortened(step: Array, largest: float) -> Array:
     """(N, m) steps, each row's shrunk until none of its motors turns further than ``largest``, rad."""
-    share: Array = np.minimum(1.0, largest / np.maximum(np.abs(step).max(axis=1), 1e-12))
+    share: Array = np.minimum(1.0, largest / np.maximum(np.abs(step).max(axis=1), SEARCH.no_turn_rad))
     return step * share[:, None]
 
 

@@ -16,15 +16,13 @@ import pinocchio as pin
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
+from armscope.robot.constants import ARMS, PASTED
 from armscope.robot.description import RobotDescription
 from armscope.robot.urdf_file import root_of
 
 SLIDING = "a sliding joint"
 KINDS = {"P": SLIDING, "Planar": "a planar joint", "FreeFlyer": "a floating joint", "Translation": "a planar joint"}
 """What joints that do not turn are called, by how pinocchio's names of them begin (behind "JointModel")."""
-LONGEST_COMPLAINT = 300
-BEYOND_LIMITS = 0.01
-"""A joint may be held beyond its limits by this share of its range: recorded positions are not exact."""
 
 
 class SerialPart(NamedTuple):
@@ -47,7 +45,7 @@ def read_urdf(path: str) -> pin.Model:
         with _errors_kept(said):
             return pin.buildModelFromUrdf(path)
     except (ValueError, RuntimeError) as error:
-        cure = " ".join(said)[:LONGEST_COMPLAINT] or "`check_urdf` may say more."
+        cure = " ".join(said)[: PASTED.complaint] or "`check_urdf` may say more."
         raise InputError(path, "", "no valid URDF", str(error).rstrip("."), cure) from error
 
 
@@ -64,7 +62,7 @@ def _errors_kept(said: list[str]) -> Iterator[None]:
             os.dup2(before, 2)
             os.close(before)
             kept.seek(0)
-            lines = kept.read(100 * LONGEST_COMPLAINT).decode(errors="replace").splitlines()
+            lines = kept.read(100 * PASTED.complaint).decode(errors="replace").splitlines()
             said += [line.removeprefix("Error:").strip() for line in lines[:3] if line.strip()]
 
 
@@ -146,7 +144,7 @@ def _to_hold(file: str | None, full: pin.Model, name: str, value: float) -> int:
         raise InputError(file, f"hold_joints: {name}", value, rule, "Make it a fixed joint in the file.")
     if held.nq == 1:
         low, high = float(full.lowerPositionLimit[held.idx_q]), float(full.upperPositionLimit[held.idx_q])
-        slack = BEYOND_LIMITS * (high - low)
+        slack = ARMS.beyond_limits * (high - low)
         if low < high and not low - slack <= value <= high + slack:
             unit = "m" if held.shortname().startswith("JointModelP") else "rad"
             rule = f"its limits are {low:g} and {high:g} {unit}"

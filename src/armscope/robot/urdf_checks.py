@@ -9,11 +9,10 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
-from armscope.robot.description import HEAVIEST_KG, LONGEST_MM, no_inertia_of_a_body
+from armscope.robot.constants import ARMS
+from armscope.robot.description import no_inertia_of_a_body
 
 JOINT_TYPES = ("revolute", "continuous", "prismatic", "fixed", "planar", "floating")
-MOST_JOINTS = 500
-"""Of a whole robot; the humanoid with the most, hands included, has fewer than 100."""
 COUNTS = {3: "three", 6: "six"}
 
 
@@ -25,8 +24,8 @@ def refuse_contradictions(path: str, root: ET.Element) -> None:
     """
     links = [element.get("name", "") for element in root.findall("link")]
     joints = root.findall("joint")
-    if len(joints) > MOST_JOINTS:
-        raise InputError(path, "", f"{len(joints)} joints", f"no robot has more than {MOST_JOINTS}")
+    if len(joints) > ARMS.most_joints_of_robot:
+        raise InputError(path, "", f"{len(joints)} joints", f"no robot has more than {ARMS.most_joints_of_robot}")
     if not links:
         raise InputError(path, "", "no <link>", "a URDF has links and joints", "Is it a file of macros or settings?")
     for kind, names in (("link", links), ("joint", [joint.get("name", "") for joint in joints])):
@@ -71,8 +70,8 @@ def _check_joint(path: str, joint: ET.Element) -> None:
         if words is None:
             continue
         numbers = _numbers(path, f"{place}, {tag} {key}", words, 3)
-        if key == "xyz" and np.abs(numbers).max() > LONGEST_MM / 1e3:
-            rule = f"no joint stands further than {LONGEST_MM / 1e3:g} m from the one before"
+        if key == "xyz" and np.abs(numbers).max() > ARMS.longest_mm / 1e3:
+            rule = f"no joint stands further than {ARMS.longest_mm / 1e3:g} m from the one before"
             raise InputError(path, f"{place}, {tag} xyz", words, rule, "URDFs are in metres.")
         if tag == "axis" and kind not in ("fixed", "floating") and not numbers.any():
             raise InputError(path, f"{place}, axis", words, "an axis needs a direction")
@@ -99,8 +98,10 @@ def _check_mass(path: str, link: ET.Element) -> None:
         mass = float(words)
     except ValueError as error:
         raise InputError(path, place, words, "a mass is a number of kg") from error
-    if not 0 <= mass <= HEAVIEST_KG:
-        raise InputError(path, place, words, f"0 to {HEAVIEST_KG:g} kg: the heaviest arm that is sold weighs 11,000 kg")
+    if not 0 <= mass <= ARMS.heaviest_kg:
+        raise InputError(
+            path, place, words, f"0 to {ARMS.heaviest_kg:g} kg: the heaviest arm that is sold weighs 11,000 kg"
+        )
 
 
 def _check_inertia(path: str, link: ET.Element) -> None:

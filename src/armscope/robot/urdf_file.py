@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from armscope.core.inputs import InputError, nearest, note_read
+from armscope.robot.constants import ARMS, PASTED
 from armscope.robot.urdf_checks import refuse_contradictions
 
 TURNING = ("revolute", "continuous")
-FEWEST_JOINTS = 2
-"""Turning joints of what may be an arm."""
 TOOL_NAMES = ("tool0", "tool", "tcp", "tool_link", "tool_frame", "flange", "ee_link", "end_effector", "ee")
 """What the link that carries the tool is usually called, the commonest first (ROS-Industrial's convention)."""
 
@@ -33,7 +32,7 @@ def is_xml(path: Path | str) -> bool:
     """Whether a file that is there begins as XML does."""
     try:
         with open(path, "rb") as stream:
-            return stream.read(200).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
+            return stream.read(PASTED.start).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
     except OSError:
         return False
 
@@ -154,7 +153,7 @@ def _moving(way: Iterable[ET.Element], slides: bool) -> list[ET.Element]:
 def _last_link(path: str, ways: dict[str, list[ET.Element]], slides: bool) -> tuple[str, str]:
     """The link that carries the tool, and why it is taken for that."""
     by_last: dict[str, list[ET.Element]] = {}
-    fewest = 1 if slides else FEWEST_JOINTS
+    fewest = 1 if slides else ARMS.fewest_joints
     for link in ways:
         if way := _moving(ways[link], slides):
             by_last[str(way[-1].get("name"))] = way
@@ -163,8 +162,8 @@ def _last_link(path: str, ways: dict[str, list[ET.Element]], slides: bool) -> tu
     shared = [each[0] for each in zip(*ends, strict=False) if all(one is each[0] for one in each)]
     if len(shared) < fewest:
         if most < fewest:
-            raise InputError(path, "", f"{most} turning joints in a row", f"an arm has at least {FEWEST_JOINTS}")
-        names = ", ".join(_body(ways, way)[-1] for way in ends[:5])
+            raise InputError(path, "", f"{most} turning joints in a row", f"an arm has at least {ARMS.fewest_joints}")
+        names = ", ".join(_body(ways, way)[-1] for way in ends[: PASTED.ends])
         cure = "Say which in a robot.yaml: `armscope init arm.urdf --tip NAME -o robot.yaml`."
         raise InputError(path, "", f"{len(ends)} arms, ending in {names}", "one arm is needed here", cure)
     body = _body(ways, shared)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.robot.constants import AXIS
 
 if TYPE_CHECKING:
     from armscope.robot.arm import Arm
@@ -123,7 +124,7 @@ def axes_told(arm: Arm) -> Array:
     They are the file's own, unless the joint turns about none of these: then there is no turn.
     """
     turns = np.linalg.inv(turns_of_file(arm))
-    along = np.isclose(np.abs(turns[:, 2, :3]).max(axis=1), 1.0, atol=1e-6)
+    along = np.isclose(np.abs(turns[:, 2, :3]).max(axis=1), 1.0, atol=AXIS.along)
     return np.where(along[:, None, None], turns, np.eye(4))
 
 
