@@ -18,7 +18,8 @@ from armscope.motion import contract as motion_contract
 from armscope.motion import verdict as motion_verdict
 from armscope.physics import model_file
 from armscope.physics.model_contents import ModelFile
-from armscope.recordings.columns import COLUMNS, LARGEST_NUMBER, Column
+from armscope.recordings.columns import COLUMNS, Column
+from armscope.recordings.constants import POSSIBLE
 from armscope.robot.description import RobotDescription
 from armscope.verdict import contract
 from armscope.verdict import effects as verdict_effects
@@ -131,7 +132,7 @@ def recordings() -> str:
 
 def _column(column: Column) -> str:
     name = column.name.replace("{j}", "*j*") if "{j}" in column.name else f"`{column.name}`"
-    bounded = max(abs(column.low), abs(column.high)) < LARGEST_NUMBER
+    bounded = max(abs(column.low), abs(column.high)) < POSSIBLE.number
     allowed = f"{column.low:.6g} to {column.high:.6g}: {column.rule}" if bounded else ""
     return f"| {name} | {column.unit} | {column.meaning.replace('{j}', '*j*')} | {allowed} |"
 

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.recordings.importing.first_table import LONGEST_NAME, first_table
+from armscope.recordings.importing.constants import LIMITS
+from armscope.recordings.importing.first_table import first_table
 
 
 @pytest.mark.parametrize(
@@ -39,7 +40,7 @@ def test_numbers_alone_have_no_header_and_old_encodings_are_read(tmp_path: Path)
 
 @pytest.mark.parametrize(
     ("text", "found"),
-    [("a,b,c,d\n", "1 line"), ("a,b,c," + "d" * (LONGEST_NAME + 1) + "\n1,2,3,4\n", "ddd")],
+    [("a,b,c,d\n", "1 line"), ("a,b,c," + "d" * (LIMITS.name + 1) + "\n1,2,3,4\n", "ddd")],
 )
 def test_what_is_no_table_is_refused(text: str, found: str, tmp_path: Path) -> None:
     path = tmp_path / "raw.csv"

@@ -3,6 +3,7 @@
 import gzip
 import tempfile
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
+from armscope.recordings.importing.constants import LIMITS
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.rawfiles import read_pieces
 
@@ -145,7 +147,7 @@ def test_columns_by_number_and_filters_that_leave_nothing_out_are_reported_in_wo
 
 
 def test_filters_remember_across_pieces_of_a_long_file(tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 3)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.LIMITS", replace(LIMITS, rows=3))
     mapping = with_columns(time={"column": "pose", "unit": "s"}) | {"rows": [{"first_of": ["pose"]}]}
     rows = "".join(f"{k // 2},0,0,{k},2,3\n" for k in range(20))
     report, table = convert(tmp_path, "pose,j1,j2,x,y,z\n" + rows, mapping)
@@ -176,7 +178,7 @@ def test_rows_of_a_file_beside_are_repeated_for_the_points_of_each_configuration
 
 @pytest.mark.parametrize("repeat", [1, 3, 7])
 def test_files_beside_are_read_along_whatever_pieces_they_come_in(repeat, tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 5)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.LIMITS", replace(LIMITS, rows=5))
     mapping = {
         "columns": {
             "id": {"row_of": "angles"},
@@ -245,7 +247,7 @@ def test_whatever_way_a_table_is_written_it_comes_back(seed, delimiter, decimal,
 
 
 def test_a_long_file_is_read_piece_by_piece(tmp_path, monkeypatch):
-    monkeypatch.setattr("armscope.recordings.importing.rawfiles.ROWS_PER_PIECE", 10)
+    monkeypatch.setattr("armscope.recordings.importing.rawfiles.LIMITS", replace(LIMITS, rows=10))
     (tmp_path / "raw.csv").write_text("a,b\n" + "1,2\n" * 25 + "cut")
     pieces = read_pieces(tmp_path / "raw.csv", TextFormat(), Counter())
     assert len(next(pieces)) == 10  # before the broken end is reached

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.recordings.resolution import FEWEST_VALUES, angle_steps, step_in_words
+from armscope.recordings.constants import READING
+from armscope.recordings.resolution import angle_steps, step_in_words
 
 ANGLES = np.random.default_rng(1).uniform(-3, 3, (80, 2))
 
@@ -34,7 +35,7 @@ def test_one_odd_row_shows_that_nothing_was_rounded() -> None:
 
 
 def test_a_joint_that_hardly_moves_tells_nothing() -> None:
-    few = np.resize(np.arange(FEWEST_VALUES - 1) * 0.1, (80, 1))
+    few = np.resize(np.arange(READING.fewest_values - 1) * 0.1, (80, 1))
     assert angle_steps(few)[0] == 0
 
 

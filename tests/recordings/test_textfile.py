@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 from armscope.core.inputs import InputError
 from armscope.core.parallel import processes
 from armscope.recordings import textfile
+from armscope.recordings.constants import PIECES
 
 TABLES = {
     "plain": "a,b,c\n1,2,3\n4,5,6\n",
@@ -37,7 +39,7 @@ def shapes(path: Path, text: str) -> tuple[object, object] | None:
 @pytest.mark.parametrize("text", TABLES.values(), ids=TABLES)
 @pytest.mark.parametrize("size", [1, 3, 1000])
 def test_it_is_as_csv_says(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, text: str, size: int) -> None:
-    monkeypatch.setattr(textfile, "PIECE_BYTES", size)
+    monkeypatch.setattr(textfile, "PIECES", replace(PIECES, size=size))
     found = shapes(tmp_path / "table.csv", text)
     assert found is not None
     assert found[0] == found[1]
@@ -45,7 +47,7 @@ def test_it_is_as_csv_says(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, text
 
 @pytest.mark.parametrize("size", [1, 2, 7])
 def test_any_text_is_as_csv_says_or_left_to_it(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, size: int) -> None:
-    monkeypatch.setattr(textfile, "PIECE_BYTES", size)
+    monkeypatch.setattr(textfile, "PIECES", replace(PIECES, size=size))
     rng, told = np.random.default_rng(1), 0
     for _ in range(300):
         text = "".join(rng.choice(list('ab,\n"\r'), rng.integers(1, 15), p=[0.3, 0.2, 0.2, 0.2, 0.05, 0.05]))
@@ -78,7 +80,7 @@ def test_a_table_is_the_same_read_in_pieces_by_any_number_of_processes(
     (tmp_path / "table.csv").write_text(text, encoding="utf-8")
     whole = textfile.read_text_table(tmp_path / "table.csv")
     assert len(whole) == len(lines)
-    monkeypatch.setattr(textfile, "PIECE_BYTES", 100)
+    monkeypatch.setattr(textfile, "PIECES", replace(PIECES, size=100))
     with processes(count):
         pd.testing.assert_frame_equal(textfile.read_text_table(tmp_path / "table.csv"), whole)
 

@@ -10,16 +10,8 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.recordings.columns import (
-    LARGEST_ANGLE_RAD,
-    LARGEST_NUMBER,
-    LARGEST_POSITION_M,
-    QUATERNION,
-    SMALLEST_SIGMA_M,
-    UNITS,
-    Names,
-    column_named,
-)
+from armscope.recordings.columns import QUATERNION, UNITS, Names, column_named
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.textfile import WORDS, cell_as_written
 from armscope.recordings.wrong_cells import how_to_mend, how_to_scale
 
@@ -51,11 +43,11 @@ class ColumnReader:
                 raise self._error(int(wrong[0]), column, str(found), "this must be a number", cure)
             values = parsed
         numbers = values.to_numpy(dtype=float)
-        beyond = np.flatnonzero(np.abs(numbers) > LARGEST_NUMBER)
+        beyond = np.flatnonzero(np.abs(numbers) > POSSIBLE.number)
         if len(beyond):
             value = float(numbers[beyond[0]])
             rule = (
-                "this must be a finite number" if np.isinf(value) else f"no recorded value reaches {LARGEST_NUMBER:g}"
+                "this must be a finite number" if np.isinf(value) else f"no recorded value reaches {POSSIBLE.number:g}"
             )
             raise self._error(int(beyond[0]), column, f"{value:g}", rule, "Leave it empty where there is no value.")
         self._check_range(column, numbers)
@@ -119,7 +111,7 @@ class ColumnReader:
 
     def _angles(self, column: str) -> Array:
         values = self._numbers(column, required=True) * UNITS[column.rsplit("_", 1)[1]]
-        beyond = np.flatnonzero(np.abs(values) > LARGEST_ANGLE_RAD)
+        beyond = np.flatnonzero(np.abs(values) > POSSIBLE.angle_rad)
         if len(beyond):
             row = int(beyond[0])
             cure = (
@@ -141,10 +133,10 @@ class ColumnReader:
 
     def _lengths(self, column: str, required: bool) -> Array:
         values = self._numbers(column, required) * UNITS[column.rsplit("_", 1)[1]]
-        beyond = np.flatnonzero(np.abs(values) > LARGEST_POSITION_M)
+        beyond = np.flatnonzero(np.abs(values) > POSSIBLE.position_m)
         if len(beyond):
             row = int(beyond[0])
-            rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+            rule = f"a measured point lies within {POSSIBLE.position_m / 1e3:g} km of its frame's origin"
             raise self._error(row, column, self.table[column].iloc[row], rule, "Subtract what all points share.")
         return values
 
@@ -159,7 +151,7 @@ class ColumnReader:
             row = int(partly[0])
             raise self._error(row, "qw ... qz", f"{known[row]} of 4 values", "an orientation is whole or left out")
         norm = np.linalg.norm(quaternion, axis=1)
-        wrong = np.flatnonzero(np.abs(norm - 1) > 0.01)
+        wrong = np.flatnonzero(np.abs(norm - 1) > POSSIBLE.off_unit)
         if len(wrong):
             raise self._error(
                 int(wrong[0]),
@@ -191,12 +183,12 @@ class ColumnReader:
         if sigma is None and isotropic is not None:
             sigma = np.repeat(isotropic, 3, axis=1)
         impossible = (
-            None if sigma is None else ((sigma < SMALLEST_SIGMA_M) & (sigma != 0)) | (sigma > LARGEST_POSITION_M)
+            None if sigma is None else ((sigma < POSSIBLE.least_sigma_m) & (sigma != 0)) | (sigma > POSSIBLE.position_m)
         )
         if sigma is not None and impossible is not None and impossible.any():
             row, axis = np.argwhere(impossible)[0]
             column = "sigma_mm" if "sigma_mm" in self.table else f"sigma_{'xyz'[axis]}_mm"
-            least, most = f"{SMALLEST_SIGMA_M * 1e3:g} mm (an atom)", f"{LARGEST_POSITION_M / 1e3:g} km"
+            least, most = f"{POSSIBLE.least_sigma_m * 1e3:g} mm (an atom)", f"{POSSIBLE.position_m / 1e3:g} km"
             rule = f"an uncertainty is not negative: 0 where it is not known, else {least} to {most}"
             raise self._error(int(row), column, sigma[row, axis] * 1e3, rule)
         return sigma

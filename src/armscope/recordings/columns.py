@@ -12,24 +12,8 @@ import numpy as np
 
 from armscope.core.inputs import LONGEST_NAME, InputError, nearest
 from armscope.core.types import Array
+from armscope.recordings.constants import POSSIBLE, READING
 from armscope.recordings.first_lines import is_motion
-
-LARGEST_ANGLE_RAD = 4 * np.pi
-"""Beyond two turns either way no arm's joint stands, so a larger number is not in radians."""
-
-LARGEST_POSITION_M = 1e4
-"""No instrument sees further, and tables with ten digits hold less than a micrometre up to here."""
-
-SMALLEST_SIGMA_M = 1e-10
-"""The size of an atom: no instrument is surer of a point. 0 stands for what is not known."""
-
-LARGEST_NUMBER = 1e15
-"""No recorded quantity reaches it in its unit; what lies beyond stands for no value, or overflows when squared."""
-
-ABSOLUTE_ZERO_C = -273.15
-
-ALIKE = 0.75
-"""Likeness (0 to 1) from which a column that is not known is taken for a misspelt one: "payload" for "payload_kg"."""
 
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
 ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
@@ -55,8 +39,8 @@ class Column:
     name: str
     unit: str
     meaning: str
-    low: float = -LARGEST_NUMBER
-    high: float = LARGEST_NUMBER
+    low: float = -POSSIBLE.number
+    high: float = POSSIBLE.number
     rule: str = ""
 
     def matches(self, header: str) -> bool:
@@ -64,20 +48,29 @@ class Column:
         return re.fullmatch(self.name.replace("{j}", r"[1-9]\d*"), header) is not None
 
 
+LONGEST_UNIT = 1 + POSSIBLE.off_unit
+"""Of a unit quaternion's number, as it is printed."""
 _ANGLE = "commanded angle of motor {j}; motors are counted from the base, the sign is the one of the robot's model"
 _POINT = "measured tool point along {axis} of the measurement frame, which may stand anywhere"
 _TURN = "measured orientation, measurement frame from tool frame, as a unit quaternion ({part}); all four or none"
 
 COLUMNS = (
-    Column("q{j}_rad", "rad", _ANGLE, -LARGEST_ANGLE_RAD, LARGEST_ANGLE_RAD, "a joint angle lies within two turns"),
-    Column("q{j}_deg", "deg", f"{_ANGLE}; in place of q{{j}}_rad", -720, 720, "a joint angle lies within two turns"),
+    Column("q{j}_rad", "rad", _ANGLE, -POSSIBLE.angle_rad, POSSIBLE.angle_rad, "a joint angle lies within two turns"),
+    Column(
+        "q{j}_deg",
+        "deg",
+        f"{_ANGLE}; in place of q{{j}}_rad",
+        -POSSIBLE.angle_deg,
+        POSSIBLE.angle_deg,
+        "a joint angle lies within two turns",
+    ),
     *(
         Column(
             f"{axis}_{unit}",
             unit,
             _POINT.format(axis=axis) + ("" if unit == "mm" else f"; in place of {axis}_mm"),
-            -LARGEST_POSITION_M / UNITS[unit],
-            LARGEST_POSITION_M / UNITS[unit],
+            -POSSIBLE.position_m / UNITS[unit],
+            POSSIBLE.position_m / UNITS[unit],
             "no instrument sees a point beyond 10 km",
         )
         for unit in ("mm", "m")
@@ -86,9 +79,11 @@ COLUMNS = (
     Column("id", "", "name of the configuration, once per run and target; the row's number where there is none"),
     Column("run", "", "name of the session: the base frame is free in each run, and held-out folds go by it"),
     Column("target", "", "which reflector was measured: the tool point is free for each"),
-    Column("qw", "", _TURN.format(part="real part"), -1.01, 1.01, "a quaternion has length 1"),
+    Column("qw", "", _TURN.format(part="real part"), -LONGEST_UNIT, LONGEST_UNIT, "a quaternion has length 1"),
     *(
-        Column(name, "", _TURN.format(part=f"along {name[1]}"), -1.01, 1.01, "a quaternion has length 1")
+        Column(
+            name, "", _TURN.format(part=f"along {name[1]}"), -LONGEST_UNIT, LONGEST_UNIT, "a quaternion has length 1"
+        )
         for name in ("qx", "qy", "qz")
     ),
     Column("time_s", "s", "when the row was measured, from any zero"),
@@ -96,8 +91,8 @@ COLUMNS = (
         "temperature_c",
         "deg C",
         "of the arm's structure; lengths of robot.yaml hold at 20 deg C",
-        ABSOLUTE_ZERO_C,
-        2000.0,
+        POSSIBLE.coldest_c,
+        POSSIBLE.warmest_c,
         "no temperature is below absolute zero, and steel melts before 2000 deg C",
     ),
     Column(
@@ -105,7 +100,7 @@ COLUMNS = (
         "kg",
         "point mass at the tool point, beyond `tool_load` of robot.yaml",
         0.0,
-        20_000.0,
+        POSSIBLE.payload_kg,
         "a payload is not negative, and the strongest arm that is sold carries 2300 kg (FANUC M-2000iA/2300)",
     ),
     Column("approach{j}", "", "sign of motor {j}'s last motion before it stopped: -1 or +1; 0 where it did not move"),
@@ -113,8 +108,8 @@ COLUMNS = (
         "dq{j}_rad_s",
         "rad/s",
         "speed of motor {j} when the row was measured",
-        -1000.0,
-        1000.0,
+        -POSSIBLE.speed_rad_s,
+        POSSIBLE.speed_rad_s,
         "the fastest arms turn a joint at 42 rad/s (delta robots' fourth axis, makers' data sheets)",
     ),
     Column(
@@ -122,8 +117,8 @@ COLUMNS = (
         "N m",
         "torque at joint {j}, positive along gravity's pull (the load's torque on the motor's axis); the torque with "
         "which the motor holds it is its opposite",
-        -1e7,
-        1e7,
+        -POSSIBLE.torque_nm,
+        POSSIBLE.torque_nm,
         "the heaviest arm that is sold (11,000 kg, reach 4.7 m) needs less than 1e6 N m",
     ),
     Column("sigma_mm", "mm", "stated 1-sigma uncertainty of the point, alike along x, y and z"),
@@ -160,7 +155,7 @@ def name_meant_by(header: str) -> str:
     """The column of the contract that a header is a misspelling of; "" for none."""
     number = re.search(r"[1-9]\d*", header)
     names = [column.name.replace("{j}", number[0] if number else "1") for column in COLUMNS]
-    return next(iter(difflib.get_close_matches(header.strip().lower()[:LONGEST_NAME], names, 1, ALIKE)), "")
+    return next(iter(difflib.get_close_matches(header.strip().lower()[:LONGEST_NAME], names, 1, READING.alike)), "")
 
 
 def counted_from_zero(headers: Iterable[str]) -> str:

@@ -8,11 +8,10 @@ import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
+from armscope.recordings.constants import PIECES
 from armscope.recordings.opening import GZIP, open_text
 
 DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
-LOOKED_AT = 1 << 16
-"""Characters from which the length of a line is taken."""
 
 
 def estimated_rows(path: Path) -> int:
@@ -23,7 +22,7 @@ def estimated_rows(path: Path) -> int:
             stream.seek(-4 if packed else 0, 2)
             size = int.from_bytes(stream.read(4), "little") if packed else stream.tell()
         with open_text(path, "utf-8") as text:
-            start = text.read(LOOKED_AT)
+            start = text.read(PIECES.length_from)
     except (OSError, EOFError, ValueError, zlib.error):
         return 0
     lines = start.count("\n")

@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-
-STANDS_STILL_RAD = 1e-2
-"""A joint whose commanded angles span less than this tells nothing about what follows its angle: servo noise."""
+from armscope.recordings.constants import READING
 
 
 def moving(angles: Array) -> NDArray[np.bool_]:
     """(m,) whether each of m joints moves, by its angles (N, m), rad."""
-    return np.asarray(np.ptp(angles, axis=0) > STANDS_STILL_RAD)
+    return np.asarray(np.ptp(angles, axis=0) > READING.still_rad)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
 from armscope.recordings.column_reader import ColumnReader
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.first_lines import DRIVE_COLUMN
 from armscope.recordings.textfile import read_text_table
 
@@ -23,10 +24,6 @@ MOTION_COLUMN = (
 )
 PLAIN = ("run", "time_s", "payload_kg", "temperature_c")
 SCALE = {"rad": 1.0, "deg": np.pi / 180, "m": 1.0}
-LARGEST_TURN_RAD = 100 * np.pi
-"""Beyond fifty turns either way no arm's joint stands, so a larger number is not in radians."""
-LONGEST_SLIDE_M = 200.0
-"""The longest tracks and gantries that carry robots are 150 m long (makers' catalogues)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +207,7 @@ class _Reader(ColumnReader):
     def _position(self, motor: int, unit: str) -> Array:
         column = f"q{motor}_{unit}"
         values = self.required(column) * SCALE[unit]
-        largest = LONGEST_SLIDE_M if unit == "m" else LARGEST_TURN_RAD
+        largest = POSSIBLE.slide_m if unit == "m" else POSSIBLE.turn_rad
         beyond = np.flatnonzero(np.abs(values) > largest)
         if len(beyond):
             cure = (

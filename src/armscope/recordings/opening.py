@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, cast
 
 from armscope.core.inputs import InputError, note_read, unreadable, why_unreadable
+from armscope.recordings.constants import PIECES
 
 GZIP = b"\x1f\x8b"
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
@@ -22,9 +23,6 @@ OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
 PICKLES = (b"\x80\x02", b"\x80\x03", b"\x80\x04", b"\x80\x05", b"\x93NUMPY")
 PICKLE_SUFFIXES = {".pickle", ".pkl", ".joblib", ".npy", ".npz", ".pt"}
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-LONGEST_SIGNATURE = 16
-LARGEST_UNPACKED_SHARE = 100
-"""Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
 
 
 def start_of(path: Path, what: str) -> bytes:
@@ -36,11 +34,11 @@ def start_of(path: Path, what: str) -> bytes:
     note_read(path)
     try:
         with path.open("rb") as stream:
-            start = stream.read(LONGEST_SIGNATURE)
+            start = stream.read(PIECES.signature)
         if start.startswith(GZIP):
             _refuse_bombs(path, what)
             with gzip.open(path) as packed:
-                start = packed.read(LONGEST_SIGNATURE)
+                start = packed.read(PIECES.signature)
     except IsADirectoryError as error:
         found, cure = unreadable(path, error, (".csv", ".csv.gz"))
         raise InputError(path, "", found, f"{what} is needed here", cure) from error
@@ -53,7 +51,7 @@ def _unpacks_to_more(path: Path, size: int) -> bool:
     """Whether a gzipped file holds more bytes than ``size``; nothing of it is kept."""
     count = 0
     with gzip.open(path) as stream:
-        while count <= size and (piece := stream.read(1 << 20)):
+        while count <= size and (piece := stream.read(PIECES.unpacked_at_once)):
             count += len(piece)
     return count > size
 
@@ -61,7 +59,7 @@ def _unpacks_to_more(path: Path, size: int) -> bool:
 def _refuse_bombs(path: Path, what: str) -> None:
     """A few bytes that would swell into all memory; of a file that was cut off, only what it holds counts."""
     packed = path.stat().st_size
-    most = LARGEST_UNPACKED_SHARE * packed
+    most = PIECES.unpacked * packed
     with path.open("rb") as stream:
         stream.seek(-min(4, packed), os.SEEK_END)
         unpacked = int.from_bytes(stream.read(4), "little")
@@ -135,6 +133,6 @@ def undecodable(path: Path, encoding: str, error: UnicodeError) -> tuple[str, st
             try:
                 line.decode(encoding)
             except UnicodeDecodeError as here:
-                before = line[max(0, here.start - 20) : here.start].decode(encoding, "replace")
+                before = line[max(0, here.start - PIECES.before_a_byte) : here.start].decode(encoding, "replace")
                 return f"line {number}", f"byte 0x{line[here.start]:02x} after {before!r}"
     return "", str(error)

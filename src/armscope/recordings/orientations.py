@@ -6,9 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.core.types import Array
-
-UNIT_TOLERANCE = 1e-2
-"""How far a quaternion or a matrix column may be from unit length: what few printed digits do, not errors."""
+from armscope.recordings.constants import POSSIBLE
 
 
 class NotARotation(ValueError):
@@ -26,7 +24,7 @@ def from_quaternions(values: Array, order: str) -> Array:
         NotARotation: a length that is not 1 within 1 %.
     """
     norm = np.linalg.norm(values, axis=1)
-    wrong = np.flatnonzero(np.abs(norm - 1) > UNIT_TOLERANCE)
+    wrong = np.flatnonzero(np.abs(norm - 1) > POSSIBLE.off_unit)
     if len(wrong):
         raise NotARotation(
             int(wrong[0]), values[wrong[0]].tolist(), f"a quaternion has length 1, this one {norm[wrong[0]]:.4g}"
@@ -48,7 +46,7 @@ def from_matrices(values: Array) -> Array:
     """
     finite = np.isfinite(values).all(axis=(1, 2))
     off = np.abs(np.swapaxes(values, 1, 2) @ values - np.eye(3)).max(axis=(1, 2))
-    wrong = np.flatnonzero(finite & (off > UNIT_TOLERANCE))
+    wrong = np.flatnonzero(finite & (off > POSSIBLE.off_unit))
     if len(wrong):
         row = int(wrong[0])
         raise NotARotation(row, values[row].round(4).tolist(), "a rotation matrix has unit axes at right angles")

@@ -5,13 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-
-FEWEST_VALUES = 10
-"""Different angles of a joint, below which round numbers are how the poses were chosen."""
-MOST_DECIMALS = 4
-"""Of a unit; what is written more finely moves no tool by what an instrument sees."""
-OF_A_STEP = 1e-6
-"""A value may lie so far beside a step: conversion between units, and nothing else, leaves that."""
+from armscope.recordings.constants import READING
 
 
 def angle_steps(motor_angles: Array) -> Array:
@@ -33,17 +27,17 @@ def angle_steps(motor_angles: Array) -> Array:
 def step_in_words(step: float) -> str:
     """A step (rad) in the unit that it is a decimal of, as the table was written: "0.1 degrees", "0.01 rad"."""
     in_radians = round(np.log10(step))
-    if abs(step / 10.0**in_radians - 1) < OF_A_STEP:
+    if abs(step / 10.0**in_radians - 1) < READING.off_a_step:
         return f"{10.0**in_radians:g} rad"
     return f"{np.degrees(step):.3g} degrees"
 
 
 def _step(values: Array) -> float:
-    if len(values) < FEWEST_VALUES:
+    if len(values) < READING.fewest_values:
         return 0.0
-    steps = [unit * 10.0**-decimals for unit in (np.pi / 180, 1.0) for decimals in range(MOST_DECIMALS + 1)]
+    steps = [unit * 10.0**-decimals for unit in (np.pi / 180, 1.0) for decimals in range(READING.decimals + 1)]
     return max((step for step in steps if _are_multiples(values / step)), default=0.0)
 
 
 def _are_multiples(in_steps: Array) -> bool:
-    return bool(np.all(np.abs(in_steps - np.round(in_steps)) < OF_A_STEP * np.maximum(1.0, np.abs(in_steps))))
+    return bool(np.all(np.abs(in_steps - np.round(in_steps)) < READING.off_a_step * np.maximum(1.0, np.abs(in_steps))))

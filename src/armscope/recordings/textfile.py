@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from armscope.core.inputs import InputError, why_unreadable
 from armscope.core.parallel import each_piece
 from armscope.core.plainyaml import CONTROL
+from armscope.recordings.constants import PIECES
 from armscope.recordings.opening import GZIP, open_text, refuse_other_than_text, start_of, undecodable
 from armscope.recordings.other_formats import what_it_is
 
@@ -23,13 +24,9 @@ if TYPE_CHECKING:
 WORDS = ("id", "run", "target")
 """Columns that are words, even where they look like numbers or like a name for no value."""
 
-ROWS_PER_PIECE = 50_000
-PIECE_BYTES = 1 << 22
-"""How much of a file is taken at once, by one process where several share the work."""
 
 Piece = tuple[int, int]
 """Where whole lines of a file start and end, bytes."""
-MOST_COLUMNS = 2000
 
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
 """What stands for no value in a column of numbers."""
@@ -87,7 +84,7 @@ def _read(path: Path, header: list[str], pieces: list[Piece]) -> pd.DataFrame:
         names = pd.read_csv(io.StringIO(",".join(header)), **how).columns  # one without a name gets one
         return pd.concat(each_piece(pieces, read_piece), ignore_index=True)
     with open_text(path, "utf-8") as stream:
-        return pd.concat(pd.read_csv(stream, chunksize=ROWS_PER_PIECE, **how), ignore_index=True)
+        return pd.concat(pd.read_csv(stream, chunksize=PIECES.rows, **how), ignore_index=True)
 
 
 def cell_as_written(source: Path | str, row: int, column: int) -> str:
@@ -157,7 +154,7 @@ def _pieces(path: Path) -> list[Piece]:
         if stream.read(len(GZIP)) == GZIP:
             return []
         while ends[-1] < size:
-            stream.seek(ends[-1] + PIECE_BYTES - 1)
+            stream.seek(ends[-1] + PIECES.size - 1)
             stream.readline()
             ends.append(min(stream.tell(), size))
     return list(pairwise(ends))
@@ -221,8 +218,8 @@ def _why_ragged(count: int, width: int) -> str:
 def _check_header(path: Path, header: list[str]) -> None:
     if other := what_it_is(header, str(path)):
         raise InputError(path, "line 1", *other)
-    if len(header) > MOST_COLUMNS:
-        raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {MOST_COLUMNS} columns")
+    if len(header) > PIECES.columns:
+        raise InputError(path, "line 1", f"{len(header)} columns", f"a table has at most {PIECES.columns} columns")
     if header[0].startswith("sep="):
         rule = "the first line names the columns"
         raise InputError(path, "line 1", ",".join(header), rule, "Remove this line, which only spreadsheets read.")

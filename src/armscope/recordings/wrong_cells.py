@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.recordings.constants import POSSIBLE
 
 _UNITS = r"mm|cm|m|rad|deg|°|s|kg|n ?m|°?c|degc|rad/s|-"
 _IN_GENERAL = "Correct it, or remove the row."
@@ -36,9 +37,6 @@ _CURES = (
 )
 """What a word looks like, in small letters, and what to do about it; the first that fits."""
 
-LARGEST_OF_UNSCALED = 3.5
-"""Beyond pi four numbers are hardly a quaternion that somebody forgot to scale, but angles."""
-
 
 def how_to_mend(word: str, column: str) -> str:
     """How to mend a word that stands in a column where a number must."""
@@ -50,6 +48,6 @@ def how_to_mend(word: str, column: str) -> str:
 def how_to_scale(numbers: Array) -> str:
     """What to do about four numbers (4,) that are no quaternion of length 1."""
     length = f"Its length is {np.linalg.norm(numbers):.4g}"
-    if np.abs(numbers).max() > LARGEST_OF_UNSCALED:
+    if np.abs(numbers).max() > POSSIBLE.unscaled:
         return f"{length}. Are these angles? `armscope import` reads Euler angles: its mapping says so."
     return f"{length}: divide all four by it." if numbers.any() else f"{length}: leave all four empty."

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
-from armscope.recordings.columns import LARGEST_POSITION_M, UNITS
+from armscope.recordings.columns import UNITS
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.formats import Column
 from armscope.recordings.importing.mapping import Scalar
 from armscope.recordings.importing.pieces import Piece
@@ -104,6 +105,6 @@ def check_lengths(piece: Piece, columns: tuple[Column, ...], lengths: Array, uni
     Raises:
         InputError: a point lies too far from its frame's origin.
     """
-    rule = f"a measured point lies within {LARGEST_POSITION_M / 1e3:g} km of its frame's origin"
+    rule = f"a measured point lies within {POSSIBLE.position_m / 1e3:g} km of its frame's origin"
     cure = f"Is its unit really {unit}?"
-    refuse_values(piece, columns, lengths / UNITS[unit], np.abs(lengths) > LARGEST_POSITION_M, rule, cure)
+    refuse_values(piece, columns, lengths / UNITS[unit], np.abs(lengths) > POSSIBLE.position_m, rule, cure)

@@ -9,15 +9,10 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.types import Array
-from armscope.recordings.columns import (
-    ABSOLUTE_ZERO_C,
-    AXES_MM,
-    LARGEST_ANGLE_RAD,
-    LARGEST_POSITION_M,
-    QUATERNION,
-    UNITS,
-)
+from armscope.recordings.columns import AXES_MM, QUATERNION, UNITS
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.checked_values import check_lengths, refuse_values, required, scalar, whole
+from armscope.recordings.importing.constants import DRAFT
 from armscope.recordings.importing.formats import Column, Time
 from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors, RunColumn
 from armscope.recordings.importing.pieces import Piece
@@ -140,7 +135,7 @@ class Converter:
         group = self.columns.angles
         assert group is not None
         angles = required(piece, group.columns) * UNITS[group.unit]
-        beyond = np.argwhere(np.abs(angles) > LARGEST_ANGLE_RAD)
+        beyond = np.argwhere(np.abs(angles) > POSSIBLE.angle_rad)
         if len(beyond):
             row, motor = beyond[0]
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
@@ -169,7 +164,7 @@ class Converter:
     def _check_last_row(self, piece: Piece, matrix: Array) -> None:
         assert self.columns.pose is not None
         if matrix.shape[1] == 4:
-            wrong = np.flatnonzero(np.abs(matrix[:, 3] - [0, 0, 0, 1]).max(axis=1) > 1e-9)
+            wrong = np.flatnonzero(np.abs(matrix[:, 3] - [0, 0, 0, 1]).max(axis=1) > DRAFT.last_row)
             if len(wrong):
                 cure = "Is the matrix written column by column? Then name its columns in the order of the rows."
                 found = matrix[wrong[0], 3].tolist()
@@ -187,7 +182,7 @@ class Converter:
             assert group.sequence is not None
             angles = whole(piece, group.euler, "an orientation")
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
-            far = np.abs(angles * UNITS[group.unit]) > LARGEST_ANGLE_RAD
+            far = np.abs(angles * UNITS[group.unit]) > POSSIBLE.angle_rad
             refuse_values(
                 piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure
             )
@@ -224,11 +219,11 @@ class Converter:
             context["time_s"] = self.clock.time(piece, columns.time, runs)
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
-            context["temperature_c"] = scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)
+            context["temperature_c"] = scalar(piece, columns.temperature, POSSIBLE.coldest_c, rule)
         if columns.sigma is not None:
             sigma = piece.stack(columns.sigma.columns) * UNITS[columns.sigma.unit] * 1e3
             rule = "an uncertainty is not negative"
-            refuse_values(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > LARGEST_POSITION_M * 1e3), rule)
+            refuse_values(piece, columns.sigma.columns, sigma, (sigma < 0) | (sigma > POSSIBLE.position_m * 1e3), rule)
             context |= as_columns([f"sigma_{axis}_mm" for axis in "xyz"], sigma)
         return context
 

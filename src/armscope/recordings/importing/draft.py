@@ -12,6 +12,8 @@ import yaml
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.columns import QUATERNION
+from armscope.recordings.constants import POSSIBLE
+from armscope.recordings.importing.constants import DRAFT, LIMITS
 from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
@@ -26,13 +28,6 @@ from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
 from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
-
-FEWEST_MOTORS = 2
-RADIANS_UP_TO = 2 * np.pi + 0.01
-MOST_NAMED = 12
-"""Columns that are not used, by name."""
-METRES_UP_TO = 30.0
-"""Coordinates whose largest is below this are metres: no arm stays within 30 mm of the origin."""
 
 JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})(?!\d)[\])]?(?P<rest>\D*)")
 """A column of one motor: words, its number, and what may follow: a unit, words."""
@@ -54,7 +49,6 @@ UR_JOINTS = (
     ("base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"),
 )
 """The six joints of a Universal Robots arm, from the base on; its logs have them in the order of the alphabet, too."""
-MOST_CLOSING = 5  # lines of statistics below a table
 
 
 def draft_mapping(path: Path | str) -> str:
@@ -73,8 +67,8 @@ def draft_mapping(path: Path | str) -> str:
     needed += _closed_by_words(table, [table.names.index(name) for name in unused])
     lines = [*format_lines(table), "columns:", *columns, *row_lines(table, needed)]
     if unused:
-        shown = ", ".join(quoted(printable(name)) for name in unused[:MOST_NAMED])
-        lines += [f"# not used: {shown}{', ...' * (len(unused) > MOST_NAMED)}"]
+        shown = ", ".join(quoted(printable(name)) for name in unused[: LIMITS.unused_named])
+        lines += [f"# not used: {shown}{', ...' * (len(unused) > LIMITS.unused_named)}"]
     text = "\n".join([HEAD.format(printable(path.name), "recordings.csv"), *lines, ""])
     validate(Mapping, yaml.safe_load(text), path)
     return text
@@ -90,7 +84,7 @@ def _closed_by_words(table: ForeignTable, columns: Sequence[int]) -> list[int]:
     """Those of some columns that hold numbers but in closing lines: a line of means has numbers like any row."""
     known = np.isfinite(table.values)
     lacking = len(known) - known.sum(axis=0)
-    few = min(MOST_CLOSING, len(known) // 2)
+    few = min(DRAFT.most_closing, len(known) // 2)
     return [column for column in columns if 0 < lacking[column] <= few and not known[-lacking[column] :, column].any()]
 
 
@@ -105,9 +99,9 @@ def format_lines(table: ForeignTable) -> Iterator[str]:
     of_numbers = np.flatnonzero(2 * np.isfinite(table.values).sum(axis=0) > len(table.values))
     words = table.words(of_numbers.tolist())
     words = [word for word in words if word.isprintable() and word not in TextFormat().missing]
-    listed = ", ".join(quoted(word) for word in (*TextFormat().missing, *words[:MOST_NAMED]))
+    listed = ", ".join(quoted(word) for word in (*TextFormat().missing, *words[: LIMITS.unused_named]))
     parts += [f"missing: [{listed}]"] if words else []
-    why = f"; {', '.join(quoted(printable(word)) for word in words[:MOST_NAMED])}: no value" if words else ""
+    why = f"; {', '.join(quoted(printable(word)) for word in words[: LIMITS.unused_named])}: no value" if words else ""
     yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it{why}"
 
 
@@ -126,13 +120,13 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     points = [column for point in reflectors for column in point]
     for what, found in (("the motor angles", angles), ("measured x, y, z", points)):
         if not found:
-            seen, line = ", ".join(table.names[:12]), f"line {table.skip + 1}"
+            seen, line = ", ".join(table.names[: LIMITS.unused_named]), f"line {table.skip + 1}"
             rule = f"no columns look like {what}, nor like time, angles and torques or currents of a motion"
             raise InputError(path, line, seen, rule, by_hand(table.names, str(path)))
     numbers = table.values[:, angles]
     largest = _largest(numbers)
     stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
-    unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
+    unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
@@ -142,7 +136,7 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     yield f"  angles: {{columns: {column_list(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
     stated = stated_unit(table.names[points[0]], below_name(table, points[0]), LENGTH_UNITS)
-    unit = stated or ("m" if largest <= METRES_UP_TO else "mm")
+    unit = stated or ("m" if largest <= DRAFT.metres_up_to else "mm")
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
     why += "; columns by likeness of names"
     if len(reflectors) == 1:
@@ -211,7 +205,7 @@ def in_a_row(group: dict[int, int]) -> list[int]:
     """The columns numbered 1, 2, ... (or 0, 1, ...) without a gap; none where there are fewer than an arm has."""
     start = 0 if 0 in group else 1
     count = next(n for n in range(start, start + len(group) + 1) if n not in group) - start
-    return [group[start + n] for n in range(count)] if count >= FEWEST_MOTORS else []
+    return [group[start + n] for n in range(count)] if count >= DRAFT.fewest_motors else []
 
 
 def motor_columns(table: ForeignTable) -> list[int]:
@@ -228,7 +222,7 @@ def motor_columns(table: ForeignTable) -> list[int]:
         commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
         ranked.append((commanded, len(columns), -columns[0], columns))
     named = _ur_joints(table) or _named_joints(table)
-    if len(named) >= FEWEST_MOTORS and all(len(named) > count for _, count, *_ in ranked):
+    if len(named) >= DRAFT.fewest_motors and all(len(named) > count for _, count, *_ in ranked):
         return named
     return max(ranked)[-1] if ranked else []
 
@@ -237,7 +231,7 @@ def _leading(table: ForeignTable) -> list[int]:
     """Without names: columns from the left that stay within a turn, the three behind them being the point."""
     spans = [_largest(table.values[:, [column]]) for column in range(table.values.shape[1])]
     count = len(spans) - 3
-    return list(range(count)) if count >= FEWEST_MOTORS and max(spans[:count]) <= 720 else []
+    return list(range(count)) if count >= DRAFT.fewest_motors and max(spans[:count]) <= POSSIBLE.angle_deg else []
 
 
 def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: bool) -> Iterator[str]:

@@ -10,10 +10,10 @@ import numpy as np
 import yaml
 
 from armscope.core.inputs import validate
+from armscope.recordings.importing.constants import DRAFT
 from armscope.recordings.importing.draft import (
     BESIDE,
     HEAD,
-    RADIANS_UP_TO,
     RUNS,
     draft_mapping,
     format_lines,
@@ -42,8 +42,6 @@ EFFORTS = {
 WARMTH = ("temp", "temperature", "temperatur")
 TIME = r"(time|zeit|t|timestamp|clock)([\s_.\[(]*(s|ms|sec|seconds))?[\])]?"
 TIME_UNITS = {"s": "s", "sec": "s", "seconds": "s", "ms": "ms"}
-SECONDS_UP_TO = 0.5
-"""From one sample to the next: a controller that logs more slowly than that logs no motion."""
 MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
 SCALARS = {
     "payload": r"(payload|load|last)([\s_.\[(]*kg)?[\])]?",
@@ -87,13 +85,13 @@ def _of_a_motion(table: ForeignTable) -> Iterator[str]:
     step = float(np.nanmedian(np.diff(table.values[:, time]))) if len(table.values) > 1 else 0.0
     stated = stated_unit(table.names[time], below_name(table, time), TIME_UNITS)
     why = "stated by the table" if stated else f"guessed: samples are {step:.3g} apart"
-    unit = stated or ("s" if step <= SECONDS_UP_TO else "ms")
+    unit = stated or ("s" if step <= DRAFT.seconds_up_to else "ms")
     yield f"  time: {{column: {quoted(table.names[time])}, unit: {unit}}}   # {why}"
     numbers = table.values[:, angles]
     largest = float(np.nanmax(np.abs(numbers))) if np.isfinite(numbers).any() else 0.0
     stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
     why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
-    unit = stated or ("rad" if largest <= RADIANS_UP_TO else "deg")
+    unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
     listed = column_list(table, angles)
     yield f"  positions: {{columns: {listed}, unit: {unit}}}   # {why}; columns by likeness of names"
     speeds = _beside(table, BESIDE["speed"], angles)

@@ -17,9 +17,7 @@ from pydantic import Field
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError, Strict, load
 from armscope.core.records import digest_of
-
-BLOCK = 1 << 20
-TIMEOUT_S = 60
+from armscope.recordings.importing.constants import FETCHING
 
 
 class SourceFile(Strict):
@@ -177,11 +175,11 @@ def _download(url: str, file: SourceFile, target: Path) -> None:
 def _receive(url: str, file: SourceFile, path: Path) -> None:
     cure = "Is there a network? A local folder can stand in for it: recordings_dir."
     try:
-        with urllib.request.urlopen(url, timeout=TIMEOUT_S) as answer, path.open("wb") as stream:
+        with urllib.request.urlopen(url, timeout=FETCHING.timeout_s) as answer, path.open("wb") as stream:
             received = 0
-            while block := answer.read(BLOCK):
+            while block := answer.read(FETCHING.block):
                 received += len(block)
-                if received > 2 * file.bytes + BLOCK:
+                if received > FETCHING.too_large * file.bytes + FETCHING.block:
                     rule = f"the file has {file.bytes} bytes"
                     raise InputError(url, "", f"more than {received} bytes", rule, "Nothing of it was kept.")
                 stream.write(block)

@@ -12,14 +12,11 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.recordings.constants import PIECES
+from armscope.recordings.importing.constants import DRAFT, LIMITS
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS
 from armscope.recordings.opening import UTF_16, open_text, refuse_other_than_text, start_of
-from armscope.recordings.textfile import MOST_COLUMNS
 
-LOOKED_AT = 2000
-"""Lines of the file that guesses rest on."""
-LONGEST_NAME = 200
-"""Characters of a column's name: nobody writes more, and guessing looks through it again and again."""
 DELIMITERS = {";": ";", "\t": "tab", "|": "|", ",": ","}
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
@@ -78,16 +75,16 @@ def first_table(path: Path) -> ForeignTable:
         )
     delimiter, cut = _delimiter(filled)
     width = Counter(len(_split(line, cut)) for line in filled).most_common(1)[0][0]
-    if width > MOST_COLUMNS:
-        raise InputError(path, "", f"{width} columns", f"a table has at most {MOST_COLUMNS} columns")
+    if width > PIECES.columns:
+        raise InputError(path, "", f"{width} columns", f"a table has at most {PIECES.columns} columns")
     first = next(number for number, line in enumerate(lines) if line.strip() and len(_split(line, cut)) == width)
     rows = [cells for line in lines[first:] if len(cells := _split(line, cut)) == width]
     decimal = "," if cut != "," and _has_decimal_commas(rows) else "."
     header = not any(NUMBER.fullmatch(_plain(cell, decimal)) for cell in rows[0])
     names = rows[0] if header else [str(number) for number in range(1, width + 1)]
     for name in names:
-        if len(name) > LONGEST_NAME:
-            raise InputError(path, f"line {first + 1}", name, f"column names of at most {LONGEST_NAME} characters")
+        if len(name) > LIMITS.name:
+            raise InputError(path, f"line {first + 1}", name, f"column names of at most {LIMITS.name} characters")
     body = rows[1:] if header else rows
     units = body[0] if header and len(body) > 1 and _is_of_units(body[0]) else []
     body = body[1:] if units else body
@@ -105,7 +102,7 @@ def _is_of_units(cells: Sequence[str]) -> bool:
 
 def _first_lines(path: Path, encoding: str) -> list[str]:
     with open_text(path, encoding) as stream:
-        return [line.rstrip("\r\n") for line, _ in zip(stream, range(LOOKED_AT), strict=False)]
+        return [line.rstrip("\r\n") for line, _ in zip(stream, range(LIMITS.lines), strict=False)]
 
 
 def _delimiter(lines: Sequence[str]) -> tuple[str, str | None]:
@@ -115,7 +112,7 @@ def _delimiter(lines: Sequence[str]) -> tuple[str, str | None]:
     for sign in (*DELIMITERS, None):
         width, alike = Counter(len(_split(line, sign)) for line in lines).most_common(1)[0]
         found = alike / len(lines) * (width > 3)
-        if found > most + 0.05:
+        if found > most + DRAFT.clearly_alike:
             best, most = ("whitespace" if sign is None else DELIMITERS[sign], sign), found
     return best
 
@@ -126,7 +123,8 @@ def _split(line: str, sign: str | None) -> list[str]:
 
 def _has_decimal_commas(rows: Sequence[Sequence[str]]) -> bool:
     cells = [cell for row in rows for cell in row]
-    return sum(bool(re.fullmatch(r"[+-]?\d+,\d+([eE][+-]?\d+)?", cell)) for cell in cells) > 0.1 * len(cells)
+    with_comma = sum(bool(re.fullmatch(r"[+-]?\d+,\d+([eE][+-]?\d+)?", cell)) for cell in cells)
+    return with_comma > DRAFT.decimal_commas * len(cells)
 
 
 def _plain(cell: str, decimal: str) -> str:

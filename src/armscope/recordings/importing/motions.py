@@ -11,7 +11,7 @@ import pydantic
 
 from armscope.core.inputs import Strict, read_keys, validate
 from armscope.core.types import Array
-from armscope.recordings.columns import ABSOLUTE_ZERO_C
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.checked_values import required, scalar
 from armscope.recordings.importing.conversion import Clock, as_columns, runs_of_rows
 from armscope.recordings.importing.formats import Format, RowFilter, TextFormat, Time
@@ -153,10 +153,10 @@ class MotionConverter:
             values.append(scalar(piece, columns.payload, 0.0, "a payload is not negative")[:, None])
         if columns.temperature is not None:
             rule = "no temperature is below absolute zero"
-            values.append(scalar(piece, columns.temperature, ABSOLUTE_ZERO_C, rule)[:, None])
+            values.append(scalar(piece, columns.temperature, POSSIBLE.coldest_c, rule)[:, None])
         for column in () if columns.temperatures is None else columns.temperatures.columns:
             rule = "no temperature is below absolute zero"
-            values.append(scalar(piece, Scalar(column=column), ABSOLUTE_ZERO_C, rule)[:, None])
+            values.append(scalar(piece, Scalar(column=column), POSSIBLE.coldest_c, rule)[:, None])
         return pd.DataFrame({"run": runs} | as_columns(motion_columns(columns)[1:], np.hstack(values)))
 
 

@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
+from armscope.recordings.importing.constants import LIMITS
 from armscope.recordings.importing.formats import Column, Format, RowFilter
 from armscope.recordings.importing.mapping import Beside, RunFiles
 from armscope.recordings.importing.rawfiles import read_pieces
 from armscope.recordings.importing.rawrows import RawRows, joined
-
-MOST_NAMED = 3
-"""Columns that an error names one by one."""
 
 
 @dataclass
@@ -158,7 +156,9 @@ class Piece:
             The error, to be raised.
         """
         rows, _ = self._where(columns[0])
-        names = f"{columns[0]} ... {columns[-1]}" if len(columns) > MOST_NAMED else ", ".join(map(str, columns))
+        names = (
+            f"{columns[0]} ... {columns[-1]}" if len(columns) > LIMITS.columns_named else ", ".join(map(str, columns))
+        )
         return InputError(rows.source, f"line {rows.lines[row]}, column {names}", found, rule, cure)
 
 

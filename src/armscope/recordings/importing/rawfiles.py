@@ -14,11 +14,11 @@ import scipy.io
 from scipy.io.matlab import MatReadError
 
 from armscope.core.inputs import InputError, nearest, why_unreadable
+from armscope.recordings.importing.constants import LIMITS
 from armscope.recordings.importing.formats import Format, MatlabFormat, TextFormat
 from armscope.recordings.importing.rawrows import MatrixRows, RawRows, TextRows
 from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
 
-ROWS_PER_PIECE = 20_000
 REMARKS = "#%!/"
 DELIMITERS = {"tab": "\t"}
 
@@ -126,7 +126,7 @@ def _gather(
             raise InputError(path, f"line {line}", f"{len(row)} values", f"every row has {width} values", cure)
         cells.append(row)
         lines.append(line)
-        if len(cells) == ROWS_PER_PIECE:
+        if len(cells) == LIMITS.rows:
             yield TextRows(path, names, np.arange(done, done + len(cells)) + 1, np.array(lines), cells, style)
             done, cells, lines = done + len(cells), [], []
     if cells:

@@ -9,10 +9,10 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
-from armscope.recordings.columns import LARGEST_NUMBER
+from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.formats import Column, TextFormat
 
-TOO_LARGE = f"no recorded value reaches {LARGEST_NUMBER:.0e}"
+TOO_LARGE = f"no recorded value reaches {POSSIBLE.number:.0e}"
 
 NO_VALUE = "Declare it under `missing` if it stands for no value."
 
@@ -74,7 +74,7 @@ class TextRows:
             except ValueError:
                 pass
             else:
-                if abs(value) <= LARGEST_NUMBER:
+                if abs(value) <= POSSIBLE.number:
                     return value
                 cure = NO_VALUE
                 rule = TOO_LARGE if np.isfinite(value) else rule
@@ -100,7 +100,7 @@ def _to_floats(words: list[str], style: TextFormat) -> Array | None:
         values = np.fromiter(map(float, words), dtype=float, count=len(words))
     except ValueError:
         return None
-    return values if (np.abs(values) <= LARGEST_NUMBER).all() else None
+    return values if (np.abs(values) <= POSSIBLE.number).all() else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +122,7 @@ class MatrixRows:
     def numbers(self, column: Column) -> Array:
         """The numbers of a column; NaN stands for no value."""
         values = self.values[:, _index(self.source, (), self.values.shape[1], column)]
-        beyond = np.abs(values) > LARGEST_NUMBER
+        beyond = np.abs(values) > POSSIBLE.number
         if beyond.any():
             row = int(beyond.argmax())
             place = f"row {self.numbers_of_rows[row]}, column {column}"

@@ -16,15 +16,13 @@ import pandas as pd
 from armscope.core.files import replacing
 from armscope.core.inputs import InputError, nearest
 from armscope.recordings.columns import AXES_MM, QUATERNION
+from armscope.recordings.importing.constants import DIGITS, LIMITS
 from armscope.recordings.importing.conversion import Converter
 from armscope.recordings.importing.mapping import Mapping, Run
 from armscope.recordings.importing.motions import MotionConverter, MotionMapping, MotionRun, load_any_mapping
 from armscope.recordings.importing.pieces import BesideFiles, Filter, LeftOut, Piece
 from armscope.recordings.importing.rawfiles import read_pieces
 
-DIGITS = 10
-TIME_DIGITS = 15
-NAMED_ROWS = 8
 AnyMapping = Mapping | MotionMapping
 AnyRun = Run | MotionRun
 
@@ -68,7 +66,7 @@ class ImportReport:
 def _shortened(rows: list[int]) -> str:
     if not rows:
         return "no row"
-    some = ", ".join(map(str, rows[:NAMED_ROWS])) + (", ..." if len(rows) > NAMED_ROWS else "")
+    some = ", ".join(map(str, rows[: LIMITS.rows_named])) + (", ..." if len(rows) > LIMITS.rows_named else "")
     return f"1 row (source row {some})" if len(rows) == 1 else f"{len(rows)} rows (source rows {some})"
 
 
@@ -97,9 +95,9 @@ def import_recordings(raw_files: list[Path], mapping_file: Path | str, output: P
             report.runs.append(RunReport(run.run, run.file))
             for piece in _convert_run(mapping, run, paths, report.runs[-1]):
                 if "time_s" in piece:  # seconds since 1970 need more digits than anything measured
-                    piece["time_s"] = piece["time_s"].map(f"{{:.{TIME_DIGITS}g}}".format, na_action="ignore")
+                    piece["time_s"] = piece["time_s"].map(f"{{:.{DIGITS.time}g}}".format, na_action="ignore")
                 piece.reindex(columns=columns).to_csv(
-                    stream, index=False, header=False, float_format=f"%.{DIGITS}g", lineterminator="\n"
+                    stream, index=False, header=False, float_format=f"%.{DIGITS.values}g", lineterminator="\n"
                 )
     return report
 
