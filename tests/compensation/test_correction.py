@@ -1,8 +1,11 @@
 """A path solved some rows at a time, by several processes, gives what it gives at once."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from armscope.compensation import newton
+from armscope.compensation.constants import COMMANDS
 from armscope.compensation.correction import correct
 from armscope.compensation.forward import NominalArm
 from armscope.compensation.newton import Wanted, solve_commands
@@ -17,7 +20,7 @@ def test_pieces_and_processes_do_not_matter(monkeypatch):
     wanted, start = Wanted(tool_frames(arm, angles)[0]), angles + rng.normal(0, 0.02, angles.shape)
     free = np.ones(arm.n_motors, dtype=bool)
     whole = solve_commands(NominalArm(arm), wanted, start, free)
-    monkeypatch.setattr(newton, "ROWS_AT_A_TIME", 7)
+    monkeypatch.setattr(newton, "COMMANDS", replace(COMMANDS, rows_at_a_time=7))
     with processes(2):
         pieces = solve_commands(NominalArm(arm), wanted, start, free)
     np.testing.assert_allclose(pieces.angles, whole.angles, atol=1e-12)

@@ -1,11 +1,14 @@
 """Where a model holds: an outer bound of the data's convex hull."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from armscope.compensation import domain as module
+from armscope.compensation.constants import RANGE
 from armscope.compensation.domain import Domain
 
 
@@ -26,7 +29,7 @@ def test_every_mixture_of_identification_rows_is_inside(seed):
 
 def test_a_long_table_has_the_extent_of_all_its_pieces(monkeypatch):
     whole = Domain.of(rows(), ["q1", "q2", "q3"], ["rad"] * 3)
-    monkeypatch.setattr(module, "ROWS_AT_A_TIME", 7)
+    monkeypatch.setattr(module, "RANGE", replace(RANGE, rows_at_a_time=7))
     pieces = Domain.of(rows(), ["q1", "q2", "q3"], ["rad"] * 3)
     for name in ("low", "high", "standardised_rows"):
         np.testing.assert_allclose(getattr(pieces, name), getattr(whole, name), atol=1e-12)

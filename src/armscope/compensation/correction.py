@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.compensation.constants import COMMANDS
 from armscope.compensation.forward import Forward
-from armscope.compensation.newton import POLE, Solution, Wanted, lever, solve_commands, weakest
+from armscope.compensation.newton import Solution, Wanted, lever, solve_commands, weakest
 from armscope.core.types import Array, Indices
 
 
@@ -47,5 +48,5 @@ def correct(real: Forward, wanted: Wanted, nominal: Array, free: NDArray[np.bool
         solution,
         after.points,
         np.linalg.norm(wanted.turn(after), axis=1),
-        np.where(solution.converged, solution.singular, at_start) < POLE,
+        np.where(solution.converged, solution.singular, at_start) < COMMANDS.pole,
     )

@@ -18,16 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from armscope.compensation.constants import RANGE
 from armscope.core.types import Array
-
-ALLOWED = 0.2
-"""A point may lie this many standard deviations outside: 6 % of an evenly filled range."""
-STILL = {"rad": 0.02, "mm": 5.0, "kg": 0.1, "degC": 2.0}
-"""An input that stood still in the data may leave its value by this much."""
-ROWS_AT_A_TIME = 50_000
-"""Their extents in all directions take some tens of megabytes."""
-MOST_NEIGHBOURS = 2000
-"""Of larger tables every k-th row is kept for the distance to the nearest one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +27,7 @@ class Domain:
     """The range of M identification rows in k inputs.
 
     Attributes:
-        inputs, units: (k) names of the inputs, and their units, keys of `STILL`.
+        inputs, units: (k) names of the inputs, and their units, keys of `RANGE.still`.
         rows: M.
         mean, scale: (k,) in these units.
         moving: (k,) whether the input moved in the data.
@@ -66,25 +58,25 @@ class Domain:
             Their means, spreads and ranges, and a thinned copy for distances to the nearest row.
         """
         table = np.asarray(inputs, dtype=float)
-        tolerances = np.array([STILL[unit] for unit in units])
+        tolerances = np.array([RANGE.still[unit] for unit in units])
         moving = np.ptp(table, axis=0) > tolerances
         # a still input's unit makes its tolerance the allowed distance
-        scale = np.where(moving, table.std(axis=0), tolerances / ALLOWED)
+        scale = np.where(moving, table.std(axis=0), tolerances / RANGE.allowed)
         mean = table.mean(axis=0)
         directions = _directions(moving, units)
         low, high = np.full(len(directions), np.inf), np.full(len(directions), -np.inf)
-        for start in range(0, len(table), ROWS_AT_A_TIME):
-            extent = (table[start : start + ROWS_AT_A_TIME] - mean) / scale @ directions.T
+        for start in range(0, len(table), RANGE.rows_at_a_time):
+            extent = (table[start : start + RANGE.rows_at_a_time] - mean) / scale @ directions.T
             low, high = np.minimum(low, extent.min(axis=0)), np.maximum(high, extent.max(axis=0))
-        thin = (table[:: -(-len(table) // MOST_NEIGHBOURS)] - mean) / scale
+        thin = (table[:: -(-len(table) // RANGE.neighbours)] - mean) / scale
         return Domain(tuple(names), tuple(units), len(table), mean, scale, moving, low, high, thin)
 
     def outside(self, inputs: ArrayLike) -> tuple[Array, NDArray[np.object_]]:
         """How far (N,) rows (N, k) lie outside, in standard deviations (0 inside), and what does most ("" inside)."""
         table, directions = np.asarray(inputs, dtype=float), _directions(self.moving, self.units)
         distance, worst = np.zeros(len(table)), np.zeros(len(table), dtype=np.intp)
-        for start in range(0, len(table), ROWS_AT_A_TIME):  # there are many directions
-            at = slice(start, start + ROWS_AT_A_TIME)
+        for start in range(0, len(table), RANGE.rows_at_a_time):  # there are many directions
+            at = slice(start, start + RANGE.rows_at_a_time)
             extent = (table[at] - self.mean) / self.scale @ directions.T
             excess = np.maximum(np.maximum(self.low - extent, extent - self.high), 0.0)
             distance[at], worst[at] = excess.max(axis=1), np.argmax(excess, axis=1)

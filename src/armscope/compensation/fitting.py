@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.black_box import ErrorModel, Turning, domain_of
+from armscope.compensation.constants import REFUSED
 from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
@@ -30,11 +31,6 @@ from armscope.physics.model import Base
 from armscope.recordings import Recordings, numbered_points
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
-
-LARGEST_PLAIN_ERROR_MM = 50.0
-"""Errors beyond this are no positioning errors: the measurements stand in another frame than the arm's base."""
-LARGEST_PLAIN_TURN_RAD = 0.1
-"""Turns beyond this are no errors of the orientation: the measured tool frame is not the arm's last frame."""
 
 
 # so many parameters: each is a choice of its own that a user makes by name, and nearly all have a default
@@ -79,12 +75,12 @@ def fit_error_model(
     frames = chain(arm, recordings.motor_angles)
     errors = ((recordings.positions - base.translation) @ base.rotation - frames.tool) * 1e3
     off = rms(errors)
-    if not register and off > LARGEST_PLAIN_ERROR_MM:
+    if not register and off > REFUSED.error_mm:
         raise InputError(
             recordings.source,
             "x_mm, y_mm, z_mm",
             f"{off:.0f} mm RMS from the nominal arm",
-            f"errors are differences in the arm's base frame, below {LARGEST_PLAIN_ERROR_MM:.0f} mm",
+            f"errors are differences in the arm's base frame, below {REFUSED.error_mm:.0f} mm",
             "Use --register to fit the measurement frame and the tool offset first.",
         )
     inputs = _inputs(arm, spec, recordings.motor_angles)
@@ -173,12 +169,12 @@ def _turning_errors(arm: Arm, rows: Recordings, base: Base, register: bool) -> t
         tool = Rotation.from_matrix(np.swapaxes(nominal, 1, 2) @ in_base).mean().as_matrix()
     turns = Rotation.from_matrix(in_base @ tool.T @ np.swapaxes(nominal, 1, 2)).as_rotvec()
     off = rms_distance(turns)
-    if off > LARGEST_PLAIN_TURN_RAD:
+    if off > REFUSED.turn_rad:
         raise InputError(
             rows.source,
             "qw, qx, qy, qz",
             f"{np.degrees(off):.0f} degrees RMS from the nominal arm",
-            f"errors of the orientation are below {np.degrees(LARGEST_PLAIN_TURN_RAD):.0f} degrees",
+            f"errors of the orientation are below {np.degrees(REFUSED.turn_rad):.0f} degrees",
             "Is it the order wxyz, measurement frame from tool frame? "
             + ("--no-orientation leaves them out." if register else "--register fits the tool's own turn."),
         )
@@ -225,7 +221,7 @@ def _check_one_setup(recordings: Recordings) -> None:
             raise InputError(
                 recordings.source,
                 f"column {column}",
-                ", ".join(map(str, known[:5])),
+                ", ".join(map(str, known[: REFUSED.runs_named])),
                 f"a black-box model is fitted to one {column}: it has one set of frames",
                 f"Choose one with --{column}.",
             )

@@ -13,19 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.compensation.constants import COMMANDS
 from armscope.compensation.forward import Forward, Rows, ToolPose
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array, Indices
 from armscope.robot.constants import SEARCH
 from armscope.robot.newton_steps import damping, least_turns, shortened, smallest_singular_value
-
-TOLERANCE_M = 1e-9
-ITERATIONS = 30
-LARGEST_NEWTON_STEP_RAD = 0.3
-ROWS_AT_A_TIME = 5_000
-"""Frames, Jacobians and steps of so many rows take some fifty megabytes."""
-POLE = 0.01
-"""An arm with a smaller singular value of the scaled Jacobian is at a pole (a wrist: 0.8 degrees from straight)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +96,7 @@ def weakest(wanted: Wanted, pose: ToolPose, free: NDArray[np.bool_], arm_lever: 
 
 def lever(forward: Forward) -> float:
     """By how many metres a radian of turn counts: a quarter of the arm's reach."""
-    return 0.25 * forward.arm.reach
+    return COMMANDS.lever * forward.arm.reach
 
 
 def solve_commands(
@@ -137,7 +130,7 @@ def solve_commands(
 
 def row_pieces(count: int) -> list[Indices]:
     """Numbers of all rows, some at a time; one empty piece where there are none."""
-    return np.array_split(np.arange(count), max(1, -(-count // ROWS_AT_A_TIME)))
+    return np.array_split(np.arange(count), max(1, -(-count // COMMANDS.rows_at_a_time)))
 
 
 def _solved(forward: Forward, wanted: Wanted, start: Array, free: NDArray[np.bool_], rows: Rows) -> Solution:
@@ -147,10 +140,10 @@ def _solved(forward: Forward, wanted: Wanted, start: Array, free: NDArray[np.boo
     angles, converged, singular, steps = _iterate(forward, wanted, origin, moves, rows)
     for _ in range(forward.arm.n_motors):
         excess = np.maximum(low - angles, angles - high)
-        broken = np.flatnonzero(((excess > 1e-12) & moves).any(axis=1) & converged)
+        broken = np.flatnonzero(((excess > SEARCH.no_turn_rad) & moves).any(axis=1) & converged)
         if not len(broken):
             break
-        over = (excess[broken] > 1e-12) & moves[broken]
+        over = (excess[broken] > SEARCH.no_turn_rad) & moves[broken]
         limit[broken] = np.argmax(np.where(over, excess[broken], -np.inf), axis=1) + 1
         origin[broken] = np.where(over, np.clip(angles[broken], low, high), origin[broken])
         moves[broken] &= ~over
@@ -167,13 +160,13 @@ def _iterate(
     arm_lever, angles = lever(forward), origin.copy()
     converged, singular = np.zeros(len(wanted), dtype=bool), np.zeros(len(wanted))
     at_work, best, steps = np.arange(len(wanted)), np.full(len(wanted), np.inf), 0
-    for steps in range(ITERATIONS + 1):
+    for steps in range(COMMANDS.steps + 1):
         here = wanted.rows(at_work)
         pose = forward.at(angles[at_work], rows[at_work])
         gap = here.gap(pose, arm_lever)
         jacobian = here.jacobian(pose, arm_lever) * moves[at_work][:, None, :]
         size = np.linalg.norm(gap, axis=1)
-        done = size < TOLERANCE_M
+        done = size < SEARCH.tolerance_m
         singular[at_work[done]] = smallest_singular_value(jacobian[done]) / arm_lever
         converged[at_work[done]] = True
         stuck = np.zeros(len(at_work), dtype=bool)
@@ -182,11 +175,11 @@ def _iterate(
             best[at_work] = size
         stays = ~done & ~stuck & np.isfinite(size)
         at_work = at_work[stays]
-        if not len(at_work) or steps == ITERATIONS:
+        if not len(at_work) or steps == COMMANDS.steps:
             break
         gap, jacobian = gap[stays], jacobian[stays]
         back = angles[at_work] - origin[at_work]
         goal = gap + np.einsum("nij,nj->ni", jacobian, back)
-        step = least_turns(jacobian, goal, damping(size[stays], 1e-12)) - back * moves[at_work]
-        angles[at_work] += shortened(step, LARGEST_NEWTON_STEP_RAD)
+        step = least_turns(jacobian, goal, damping(size[stays], SEARCH.least_damping)) - back * moves[at_work]
+        angles[at_work] += shortened(step, COMMANDS.step_rad)
     return angles, converged, singular, steps

@@ -11,16 +11,13 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.compensation.constants import BRANCH, COMMANDS
 from armscope.compensation.forward import NominalArm
-from armscope.compensation.newton import POLE, Wanted, solve_commands
+from armscope.compensation.newton import Wanted, solve_commands
 from armscope.core.types import Array, Indices
 from armscope.robot import Arm
 from armscope.robot.constants import SEARCH
 from armscope.robot.inverse import BEYOND_REACH, PathSolution, follow_path
-
-KNOTS = {False: 400, True: 100}
-"""How many points are solved one after the other, for positions and for full poses."""
-STARTS = 300
 
 
 def nominal_branch(
@@ -43,7 +40,7 @@ def nominal_branch(
         Angles and reasons as `follow_path` gives them; a full pose may also fail with "wrist pole".
     """
     held = dict(held or {})
-    stride = -(-len(wanted) // KNOTS[wanted.rotations is not None])
+    stride = -(-len(wanted) // (BRANCH.points if wanted.rotations is None else BRANCH.poses))
     if stride > 1:
         knots = np.unique(np.append(np.arange(0, len(wanted), stride), len(wanted) - 1))
         coarse = _point_by_point(arm, wanted.rows(knots), start, held, largest_step * stride)
@@ -94,7 +91,7 @@ def _follow_poses(
             continue
         angles[row] = q = found
         skipped, reached_any = 0, True
-    unexplained = np.flatnonzero(reasons == BEYOND_REACH)[:20]
+    unexplained = np.flatnonzero(reasons == BEYOND_REACH)[: BRANCH.explained]
     for row in unexplained:
         found, why = _from_many_starts(nominal, wanted.rows(np.array([row])), q, free)
         reasons[row] = why if found is None else f"jump of joint {int(np.argmax(np.abs(found - q))) + 1}"
@@ -106,7 +103,7 @@ def _one_pose(nominal: NominalArm, target: Wanted, start: Array, free: NDArray[n
         return None, BEYOND_REACH
     solution = solve_commands(nominal, target, start[None], free)
     if solution.converged[0]:
-        return (solution.angles[0], "") if solution.singular[0] >= POLE else (None, "pole")
+        return (solution.angles[0], "") if solution.singular[0] >= COMMANDS.pole else (None, "pole")
     return None, f"limit of joint {solution.limit[0]}" if solution.limit[0] else BEYOND_REACH
 
 
@@ -120,11 +117,11 @@ def _from_many_starts(
         return None, BEYOND_REACH
 
     limits = np.where(np.isfinite(nominal.arm.limits), nominal.arm.limits, [-np.pi, np.pi])
-    starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(STARTS), *limits.T)
+    starts = qmc.scale(qmc.Halton(nominal.arm.n_motors, scramble=False).random(BRANCH.starts), *limits.T)
     starts = np.where(free, starts, near)
-    every = target.rows(np.zeros(STARTS, dtype=np.intp))
+    every = target.rows(np.zeros(BRANCH.starts, dtype=np.intp))
     solution = solve_commands(nominal, every, starts, free)
-    good = solution.converged & (solution.singular >= POLE)
+    good = solution.converged & (solution.singular >= COMMANDS.pole)
     if not good.any():
         broken = solution.limit[solution.limit > 0]
         if solution.converged.any():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from armscope.compensation.constants import REFUSED
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings import Recordings
@@ -80,15 +81,16 @@ def _given(columns: Iterable[str], source: Path | str) -> tuple[bool, bool]:
     has_points = any(f"{axis}_{unit}" in names for axis in "xyz" for unit in ("mm", "m"))
     if not has_angles and not has_points:
         rule = "a path has x_mm, y_mm, z_mm (or _m), or q1_rad, q2_rad, ... (or _deg)"
-        raise InputError(source, "line 1", ", ".join(names[:6]), rule, "The unit is part of the column's name.")
+        found = ", ".join(names[: REFUSED.columns_named])
+        raise InputError(source, "line 1", found, rule, "The unit is part of the column's name.")
     return has_angles, has_points
 
 
 def unit_doubt(points: Array, reach: float) -> str:
     """A hint that lengths may be in another unit than the column's name says; "" without doubt."""
     far = float(np.median(np.linalg.norm(points, axis=1)))
-    if far > 50 * reach:
+    if far > REFUSED.far * reach:
         return f"; the points lie {far:.4g} m away: are they millimetres in columns called _m?"
-    if far < reach / 200:
+    if far < reach / REFUSED.near:
         return f"; the points lie {far * 1e3:.3g} mm from the base: are they metres in columns called _mm?"
     return ""

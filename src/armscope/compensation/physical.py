@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.compensation.constants import MOMENTS, RANGE
 from armscope.compensation.domain import Domain
 from armscope.compensation.file_contents import IdentifiedContent
 from armscope.core.files import read_json, write_json
@@ -23,8 +24,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
-MOST_TORQUES = 20_000
-"""Rows on which mass moments are fitted, spread evenly: a hundred for each; so many are computed at a time."""
 FORMAT = "armscope domain 1"
 FILE = "domain.json"
 WHAT = "domain.json of `armscope diagnose`"
@@ -196,7 +195,7 @@ def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) ->
     if "hours" not in drivers_of(model) or identified.time_s is None or rows.time is None:
         return np.zeros(len(rows), dtype=bool)
     first, last = identified.time_s
-    slack = 0.1 * (last - first)
+    slack = RANGE.time * (last - first)
     return np.asarray((rows.time < first - slack) | (rows.time > last + slack))
 
 
@@ -241,8 +240,8 @@ def with_torques(model: FittedModel, identified: Identified, rows: Recordings, a
         return rows, ""
     known = np.flatnonzero(~np.isnan(angles).any(axis=1))
     torque, payload = np.full_like(angles, np.nan), _payload(rows)
-    for start in range(0, len(known), MOST_TORQUES):
-        at = known[start : start + MOST_TORQUES]
+    for start in range(0, len(known), MOMENTS.rows):
+        at = known[start : start + MOMENTS.rows]
         torque[at] = _torques(model.arm, angles[at], payload[at], identified.torque_weights)
     return replace(rows, torque=torque), "joint torques: mass moments fitted to the recorded ones"
 
@@ -251,9 +250,9 @@ def _torque_weights(arm: Arm, recordings: Recordings) -> Array | None:
     torque = recordings.torque
     if torque is None or np.isnan(torque).any():
         return None
-    rows = spread_evenly(len(recordings), MOST_TORQUES)
+    rows = spread_evenly(len(recordings), MOMENTS.rows)
     columns = _torque_columns(arm, recordings.motor_angles[rows], _payload(recordings)[rows])
-    fitted = [np.linalg.lstsq(columns[:, j], torque[rows, j], rcond=1e-8)[0] for j in range(arm.n_motors)]
+    fitted = [np.linalg.lstsq(columns[:, j], torque[rows, j], rcond=MOMENTS.unseen)[0] for j in range(arm.n_motors)]
     return np.array(fitted)
 
 

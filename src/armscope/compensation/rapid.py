@@ -12,15 +12,15 @@ from pathlib import Path
 
 import numpy as np
 
+from armscope.compensation.constants import RAPID
 from armscope.core.files import write_text
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 
 NOT_THERE = "9E9"
-AXES = 6
+AXES = len(("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"))
+"""Of a joint target: the robot's, and as many others."""
 LARGEST = AXES + 1
-DIGITS = 7
-"""Of a degree: 2e-9 rad."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
 TARGET = re.compile(r"CONST\s+jointtarget\s+(\w+)\s*:=\s*\[\s*\[([^\]]*)\]\s*,\s*\[([^\]]*)\]\s*\]\s*;", re.IGNORECASE)
 MOVE = re.compile(r"MoveAbsJ\s+(\w+)", re.IGNORECASE)
@@ -80,7 +80,7 @@ def read_rapid(path: Path | str, n_motors: int) -> Array:
 
 
 def _target(row: Array) -> str:
-    degrees = [f"{value:.{DIGITS}f}" for value in np.degrees(row)]
+    degrees = [f"{value:.{RAPID.digits}f}" for value in np.degrees(row)]
     arm = [*degrees[:AXES], *["0"] * (AXES - len(degrees))]
     external = [*degrees[AXES:], *[NOT_THERE] * (AXES - max(0, len(degrees) - AXES))]
     return f"[[{', '.join(arm)}], [{', '.join(external)}]]"

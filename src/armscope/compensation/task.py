@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from armscope.compensation.constants import COMMANDS, RANGE
 from armscope.compensation.correction import correct
-from armscope.compensation.domain import ALLOWED, Domain
+from armscope.compensation.domain import Domain
 from armscope.compensation.forward import Forward, NominalArm
 from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
 from armscope.compensation.nominal_path import nominal_branch
@@ -21,9 +22,6 @@ from armscope.core.parallel import piece_by_piece
 from armscope.core.types import Array, Indices
 from armscope.robot import Arm, tool_frames
 from armscope.robot.constants import SEARCH
-
-LARGEST_CORRECTION_RAD = np.radians(3)
-"""Errors of millimetres never ask for more, unless the arm is close to a pole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +39,7 @@ class Options:
     frame: Frame = "base"
     pose: bool = False
     start: Array | None = None
-    allowed: float = ALLOWED
+    allowed: float = RANGE.allowed
     largest_step: float = SEARCH.jump_rad
 
 
@@ -189,9 +187,10 @@ class PathTask:
         return range(1, self.arm.n_motors + 1)
 
     def _refuse_beyond_limits(self, refused: NDArray[np.object_], angles: Array) -> None:
-        low, high = self.arm.limits.T
+        (low, high), slack = self.arm.limits.T, SEARCH.broken_limit_rad
         for motor in self._motors:
-            beyond = (angles[:, motor - 1] < low[motor - 1] - 1e-9) | (angles[:, motor - 1] > high[motor - 1] + 1e-9)
+            angle = angles[:, motor - 1]
+            beyond = (angle < low[motor - 1] - slack) | (angle > high[motor - 1] + slack)
             refuse(refused, beyond, f"limit of joint {motor}")
 
     def _refuse_unsolved(
@@ -207,7 +206,7 @@ class PathTask:
         _refuse_at_limits(refused, known, solution)
         refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")
         worst = np.argmax(moved, axis=1)
-        for row in np.flatnonzero(moved.max(axis=1) > LARGEST_CORRECTION_RAD):
+        for row in np.flatnonzero(moved.max(axis=1) > COMMANDS.correction_rad):
             size = np.degrees(moved[row, worst[row]])
             text = f"the correction turns joint {worst[row] + 1} by {size:.1f} degrees: close to a pole"
             refused[known[row]] = refused[known[row]] or text
