@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.confounding import Confounded, confounded_parameters
-from armscope.calibration.constants import CALIBRATING
+from armscope.calibration.constants import CALIBRATING, FITTING
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
 from armscope.calibration.result import Calibration
@@ -151,7 +151,7 @@ def _covariance(solved: Solved) -> Array:
     per_row = len(residual) // len(solved.rows)
     per_component = np.repeat(fitted.weights, per_row)
     normal = (jacobian * per_component[:, None]).T @ jacobian + np.diag(solved.stiffness[free])
-    inverse = np.linalg.pinv(normal, hermitian=True, rcond=1e-15)
+    inverse = np.linalg.pinv(normal, hermitian=True, rcond=FITTING.unseen)
     freedom = max(len(residual) - int(free.sum()), 1)
     if np.all(fitted.weights == 1):
         return inverse * float(residual @ residual) / freedom

@@ -63,6 +63,41 @@ class FittingRules(Constants):
         "fits with orientations",
         "judgement: the first's weight is from the nominal arm, the next's from the fit before",
     )
+    least_damping: float = constant(
+        1e-13,
+        "of Gauss-Newton, share of each column's own square that is always there",
+        "judgement: values that the rows do not tell stay where they are; a thousand times rounding",
+    )
+    unseen: float = constant(
+        1e-15,
+        "share of the largest eigenvalue below which a direction has no covariance",
+        "derived: some times the rounding of one operation",
+    )
+    no_load_nm: float = constant(
+        1e-9, "RMS load at least, by which compliances are scaled", "derived: far below any load", unit="N m"
+    )
 
 
-CALIBRATING, IDENTIFYING, FITTING = CalibratingRules(), IdentifyingRules(), FittingRules()
+@dataclass(frozen=True)
+class PriorSizes(Constants):
+    """How far constants that imitate each other are held near nominal, and how far off a constant may come out."""
+
+    length_m: float = constant(3e-3, "of a length", "convention: the reference figures'", unit="m")
+    angle_rad: float = constant(5e-3, "of an angle", "convention: the reference figures'", unit="rad")
+    compliance_rad_nm: float = constant(
+        1e-3, "of a joint's compliance", "convention: the reference figures'", unit="rad/(N m)"
+    )
+    noise_m: float = constant(
+        1e-4, "of a point, that they are weighed against", "convention: the reference figures'", unit="m"
+    )
+    wrong_length: float = constant(
+        0.05,
+        "share of the reach beyond which a length of the drawing is not so wrong: the fit has lost its way",
+        "judgement: 50 mm of an arm that reaches 1 m, whose castings are machined to 1 mm",
+    )
+    wrong_angle_rad: float = constant(
+        0.1, "the same of an angle", "judgement: six degrees; ten times the twist that is plausible", unit="rad"
+    )
+
+
+CALIBRATING, IDENTIFYING, FITTING, SIZES = CalibratingRules(), IdentifyingRules(), FittingRules(), PriorSizes()

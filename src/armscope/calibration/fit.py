@@ -33,7 +33,7 @@ class Fitted:
 class _Calibration(NonlinearProblem[State, Posed]):
     """Some of a set-up's parameters, each held near zero by its own stiffness."""
 
-    least_damping = 1e-13
+    least_damping = FITTING.least_damping
 
     def __init__(self, set_up: SetUp, free: NDArray[np.bool_], stiffness: Array, rule: Rule) -> None:
         self.set_up, self.free, self.stiffness, self.rule = set_up, free, stiffness, rule

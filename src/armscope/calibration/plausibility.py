@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.constants import CALIBRATING
+from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.result import SHOWN
 from armscope.calibration.solve import Solved
@@ -13,9 +13,6 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import UNSETTLED
 from armscope.recordings import Recordings
-
-IMPLAUSIBLE = {"m": 0.05, "rad": 0.1}
-"""A constant of the drawing (share of the arm's reach, or rad) is not so wrong: the fit has lost its way."""
 
 
 def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
@@ -43,7 +40,7 @@ def require_loads(recordings: Recordings, rows: SetUp, level: Level) -> None:
 def implausible_fit(solved: Solved) -> list[str]:
     """What shows that the fit has lost its way."""
     rows, state = solved.rows, solved.fitted.state
-    limits = {"m": IMPLAUSIBLE["m"] * rows.arm.reach, "rad": IMPLAUSIBLE["rad"]}
+    limits = {"m": SIZES.wrong_length * rows.arm.reach, "rad": SIZES.wrong_angle_rad}
     far = [
         f"{constant.name} by {value * SHOWN[constant.unit][0]:.3g} {SHOWN[constant.unit][1]}"
         for constant, value in zip(rows.constants, state.constants, strict=True)

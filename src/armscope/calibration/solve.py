@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.constants import FITTING
+from armscope.calibration.constants import FITTING, SIZES
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
 from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp
@@ -26,10 +26,10 @@ class Priors:
     Defaults: those of the reference figures.
     """
 
-    length: float = 3e-3
-    angle: float = 5e-3
-    compliance: float = 1e-3
-    noise: float = 1e-4
+    length: float = SIZES.length_m
+    angle: float = SIZES.angle_rad
+    compliance: float = SIZES.compliance_rad_nm
+    noise: float = SIZES.noise_m
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +101,6 @@ def _stiffness(rows: SetUp, priors: Priors) -> Array:
 
 def scales_of(rows: SetUp) -> Array:
     """Sizes that make columns comparable: 1 m, and the angle that moves the tool by 1 m at full reach."""
-    load = 1.0 if rows.loads is None else max(float(np.sqrt(np.mean(rows.loads**2))), 1e-9)
+    load = 1.0 if rows.loads is None else max(float(np.sqrt(np.mean(rows.loads**2))), FITTING.no_load_nm)
     size = {"m": 1.0, "rad": 1 / rows.arm.reach, "rad/(N m)": 1 / (rows.arm.reach * load)}
     return np.array([size[unit] for unit in rows.units])
