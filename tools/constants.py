@@ -16,7 +16,19 @@ import armscope
 from armscope.core.constants import BASES, Constants, entries
 
 PAGE = Path(__file__).parents[1] / "docs" / "constants.md"
-ROOMS = ("check", "measurement", "inference", "fitting", "diagnosis", "motion", "robot", "recordings", "compensation", "calibration")
+ROOMS = (
+    "check",
+    "measurement",
+    "inference",
+    "fitting",
+    "diagnosis",
+    "motion",
+    "robot",
+    "recordings",
+    "compensation",
+    "calibration",
+    "comparison",
+)
 """Rooms whose every number is on the page."""
 SHOWN = ("physics", *ROOMS)
 """Of physics, how large each error is on real arms; other numbers there are what an effect is made of."""

@@ -187,7 +187,7 @@ def _change(
         at = number + q * np.arange(len(names))
         difference = float(contrast @ values[at])
         error = float(np.sqrt(contrast @ covariance[np.ix_(at, at)] @ contrast))
-        half = float(stdtrit(free, 0.975)) * error
+        half = float(stdtrit(free, COMPARING.interval)) * error
         parameters.append(_valued(term, values[at], covariance[np.ix_(at, at)], (difference, half)))
     change = contrast @ values.reshape(len(names), q)
     rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)

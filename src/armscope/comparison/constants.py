@@ -44,6 +44,23 @@ class ComparingRules(Constants):
         "probability, times the number of halves, from which the halves differ by chance",
         "convention: as every other time",
     )
+    halving_axes: int = constant(
+        3, "of the poses, along which a recording is halved, beside early and late", "judgement: the largest; time"
+    )
+    most_dispersion: float = constant(
+        1e4,
+        "factor that makes the halves' differences no surprise, at most",
+        "judgement: noise a hundred times as large",
+    )
+    dispersions: int = constant(400, "that are tried up to it", "derived: each is larger by 2.3 %")
+    covered: tuple[float, float] = constant(
+        (0.05, 0.95), "quantiles of a joint's angles between which its range is", "convention: nine in ten"
+    )
+    interval: float = constant(
+        0.975,
+        "quantile to which a change's interval goes from its middle, on either side",
+        "convention: 95 % intervals",
+    )
 
 
 @dataclass(frozen=True)
@@ -75,6 +92,31 @@ class SharedModelRules(Constants):
         20.0,
         "numbers that are free when a recording is fitted alone, from which its noise is known by that",
         "derived: to 1 / sqrt(2 x 20) = 16 %; with one free, eight pairs of 20 seemed to have changed",
+    )
+    widened: float = constant(
+        10.0,
+        "times the size of a shared effect, as the prior of a change that is told",
+        "judgement: freely, but not where one recording alone does not tell it",
+    )
+    first_noise: float = constant(
+        100.0,
+        "times below the mean square of the residuals, from which the variance of the noise is looked for",
+        "judgement: an arm's errors are about ten times the noise",
+    )
+    noise_rounds: int = constant(
+        4, "in which it is found", "judgement: it then changes by less than it is uncertain", unit="rounds"
+    )
+    least_variance: float = constant(
+        1e-12, "of the noise", "derived: far below any instrument's; exact rows would have none", unit="mm2"
+    )
+    least_square: float = constant(
+        1e-24,
+        "added to each recording's variance where it is weighed",
+        "derived: far below any instrument's",
+        unit="mm2",
+    )
+    least_left: float = constant(
+        1e-12, "share of the squares that a change leaves at least", "derived: some thousand times rounding"
     )
     held: float = constant(
         1e-9, "penalty on frames and changes of unit length", "judgement: too little for any that the rows tell"

@@ -19,10 +19,8 @@ from armscope.comparison.constants import COMPARING
 from armscope.core.types import Array
 from armscope.physics.effect import Placed
 
-AXES = 3
-"""Directions of the poses along which a recording is halved."""
-STEPS = np.geomspace(1.0, 1e4, 400)
-"""Factors that are tried, 2 % apart."""
+STEPS = np.geomspace(1.0, COMPARING.most_dispersion, COMPARING.dispersions)
+"""Factors that are tried."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,8 @@ def halves(angles: Array) -> Iterator[NDArray[np.bool_]]:
     count = len(angles)
     yield np.arange(count) >= count // 2
     centred = angles - angles.mean(axis=0)
-    for along in np.linalg.svd(centred, full_matrices=False)[0].T[: min(AXES, np.linalg.matrix_rank(centred))]:
+    axes = min(COMPARING.halving_axes, np.linalg.matrix_rank(centred))
+    for along in np.linalg.svd(centred, full_matrices=False)[0].T[:axes]:
         yield along > np.median(along)
 
 

@@ -94,7 +94,7 @@ def of_same_poses(tables: Sequence[Recordings]) -> list[tuple[int, ...]]:
         Numbers of recordings; each stands in the first family with whose first member it overlaps.
     """
     still = np.array([*[COMPARING.still_rad] * tables[0].n_motors, COMPARING.same_payload_kg])
-    ranges = [np.quantile(_covered(table), (0.05, 0.95), axis=0) for table in tables]
+    ranges = [np.quantile(_covered(table), COMPARING.covered, axis=0) for table in tables]
     families: list[list[int]] = []
     for k, (low, high) in enumerate(ranges):
         for family in families:

@@ -82,7 +82,7 @@ class SharedModel:
         self._reweigh(self._robust / self.weight)
         for _ in range(SHARED.weighings):
             left, free = self._left_of_each(taken)
-            self._weigh(np.sqrt(np.bincount(self.group, left**2) / free + 1e-24))
+            self._weigh(np.sqrt(np.bincount(self.group, left**2) / free + SHARED.least_square))
             self._noise = self._settled_noise()
 
     def _left_of_each(self, taken: Sequence[Possible]) -> tuple[Array, Array]:
@@ -188,7 +188,7 @@ class SharedModel:
         gain, q = float(along @ along), int(seen.sum())
         total = variance * free
         # the variance without what the change explains: of the model in which it is free
-        without = max(total - gain, 1e-12 * total)
+        without = max(total - gain, SHARED.least_left * total)
         statistic = Statistic((gain / q) / (without / (free - q)), q, free)
         # the noise is as unknown as the change: profile likelihood, and what q numbers cost
         nats = free / 2 * np.log(total / without) / self.dispersion - statistic.price_nats
@@ -255,7 +255,7 @@ class SharedModel:
         scale = np.tile(self._of(self.scale, number), count)
         scale = np.where(scale > 0, scale, 1.0)
         design = np.hstack([base, own])
-        held = np.concatenate([penalty, self._noise / (10 * scale) ** 2])
+        held = np.concatenate([penalty, self._noise / (SHARED.widened * scale) ** 2])
         inverse = np.linalg.inv(design.T @ design + np.diag(held))
         values = (inverse @ (design.T @ self.residual))[-own.shape[1] :]
         variance, free = self._left(design, held)
@@ -288,10 +288,10 @@ class SharedModel:
 
     def _settled_noise(self) -> float:
         """The variance that the prior is weighed by, found with itself."""
-        self._noise = float(np.mean(self.residual**2)) / 100 + 1e-12
+        self._noise = float(np.mean(self.residual**2)) / SHARED.first_noise + SHARED.least_variance
         base, penalty = self._base(())
         gram, frames = base.T @ base, self.frames.shape[1]
-        for _ in range(4):
+        for _ in range(SHARED.noise_rounds):
             penalty[frames:] = self._noise
-            self._noise = max(self._left(base, penalty, gram)[0], 1e-12)
+            self._noise = max(self._left(base, penalty, gram)[0], SHARED.least_variance)
         return self._noise
