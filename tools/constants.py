@@ -28,6 +28,7 @@ ROOMS = (
     "compensation",
     "calibration",
     "comparison",
+    "fleet",
 )
 """Rooms whose every number is on the page."""
 SHOWN = ("physics", *ROOMS)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import copy_file, new_folder, write_table
+from armscope.fleet.constants import SIMULATED
 from armscope.world.folder import build
 from armscope.world.spec import NOISE_MM, EffectSpec, WorldSpec
 
@@ -18,9 +19,8 @@ WEAKNESSES = {
     "parallelogram-120kg": ("backlash", "joint 1"),
 }
 """What many arms of each type have."""
-USUAL, FEW = 0.7, ("joint_offset", "link_geometry")
-"""Share of the arms that have their type's weakness; what each may have besides."""
-ROWS = 120
+FEW = ("joint_offset", "link_geometry")
+"""What each arm may have besides."""
 
 
 def simulate(count: int, seed: int, robots: Path, output: Path) -> None:
@@ -60,12 +60,12 @@ def arm_spec(number: int, count: int, seed: int) -> WorldSpec:
     """
     rng = np.random.default_rng([seed, number])
     arm = list(WEAKNESSES)[number % len(WEAKNESSES)]
-    unlike = 10.0 if number == count - 1 else 1.0
-    effects = [EffectSpec(kind=str(rng.choice(FEW)), strength=unlike * float(rng.uniform(2, 5)))]
-    if rng.random() < USUAL:
+    unlike = SIMULATED.unlike if number == count - 1 else 1.0
+    effects = [EffectSpec(kind=str(rng.choice(FEW)), strength=unlike * float(rng.uniform(*SIMULATED.few)))]
+    if rng.random() < SIMULATED.usual:
         kind, place = WEAKNESSES[arm]
-        effects.append(EffectSpec(kind=kind, location=place, strength=unlike * float(rng.uniform(3, 8))))
+        effects.append(EffectSpec(kind=kind, location=place, strength=unlike * float(rng.uniform(*SIMULATED.weakness))))
     return WorldSpec(
-        id=f"arm-{number:03d}", category="multiple", arm=arm, seed=int(rng.integers(2**31)), fresh=True, rows=ROWS,
-        sigma_mm=float(np.mean(NOISE_MM[arm])), effects=tuple(effects),
+        id=f"arm-{number:03d}", category="multiple", arm=arm, seed=int(rng.integers(2**31)), fresh=True,
+        rows=SIMULATED.rows, sigma_mm=float(np.mean(NOISE_MM[arm])), effects=tuple(effects),
     )  # fmt: skip

@@ -10,18 +10,12 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.averages import robust_scale
+from armscope.fleet.constants import FLEET
 from armscope.fleet.diagnosing import FAILURE
 from armscope.fleet.members import Member
 from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
-
-OUTLIER = 4.0
-"""Robust standard deviations from the median of its type beyond which an arm is an outlier: one in 16,000 by chance."""
-FEWEST_ARMS = 5
-"""Of a type, from which an outlier can be told."""
-COMMON = 0.3
-"""Share of a type's arms from which a cause is said to repeat."""
 
 
 def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:
@@ -72,17 +66,17 @@ def arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFram
 
 def _apart(values: pd.Series[float]) -> pd.Series[float]:
     """How far each value's logarithm lies from the median, in robust standard deviations; NaN of too few."""
-    if len(values) < FEWEST_ARMS:
+    if len(values) < FLEET.fewest_arms:
         return values * np.nan
-    logs = np.log(np.maximum(values.to_numpy(dtype=float), 1e-6))
+    logs = np.log(np.maximum(values.to_numpy(dtype=float), FLEET.least_mm))
     away = logs - np.median(logs)
-    return pd.Series(away / max(robust_scale(away), 0.05), index=values.index)
+    return pd.Series(away / max(robust_scale(away), FLEET.least_spread), index=values.index)
 
 
 def outliers(table: pd.DataFrame) -> pd.DataFrame:
     """The diagnoses that lie far from others of their type, farthest first."""
     far = table[["before_apart", "after_apart"]].abs().max(axis=1)
-    return table[far > OUTLIER].assign(apart=far[far > OUTLIER]).sort_values("apart", ascending=False)
+    return table[far > FLEET.outlier].assign(apart=far[far > FLEET.outlier]).sort_values("apart", ascending=False)
 
 
 def repeated(table: pd.DataFrame, of_arms: pd.DataFrame) -> pd.DataFrame:

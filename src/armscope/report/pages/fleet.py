@@ -7,19 +7,9 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.files import write_table, write_yaml
+from armscope.fleet.constants import FLEET
 from armscope.fleet.members import Member
-from armscope.fleet.summary import (
-    COMMON,
-    FEWEST_ARMS,
-    OUTLIER,
-    arms,
-    causes_of_arms,
-    learned_sizes,
-    outliers,
-    priors,
-    repeated,
-    verdicts,
-)
+from armscope.fleet.summary import arms, causes_of_arms, learned_sizes, outliers, priors, repeated, verdicts
 from armscope.report.figures.fleet import fleet_figure
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
@@ -64,13 +54,13 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
         "fleet.html.j2",
         arms=_in_words(of_arms[TABLE]),
         outliers=_in_words(outliers(of_arms)[["arm", "type", "date", "before_mm", "after_mm", "apart", "headline"]]),
-        common=_in_words(often[(often["expected_share"] > COMMON) & (often["arms"] > 1)]),
+        common=_in_words(often[(often["expected_share"] > FLEET.common) & (often["arms"] > 1)]),
         repeated=_in_words(often),
         failed=pd.DataFrame(failed.items(), columns=["diagnosis", "why"]),
         figure=output / "causes.svg" if drawn else None,
-        comparable=bool((of_arms.groupby("type")["arm"].nunique() >= FEWEST_ARMS).any()),
-        fewest=spelled(FEWEST_ARMS),
+        comparable=bool((of_arms.groupby("type")["arm"].nunique() >= FLEET.fewest_arms).any()),
+        fewest=spelled(FLEET.fewest_arms),
         types=spelled(int(of_arms["type"].nunique())),
-        limit=OUTLIER,
-        share=COMMON,
+        limit=FLEET.outlier,
+        share=FLEET.common,
     )
