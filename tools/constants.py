@@ -29,6 +29,7 @@ ROOMS = (
     "calibration",
     "comparison",
     "fleet",
+    "poses",
 )
 """Rooms whose every number is on the page."""
 SHOWN = ("physics", *ROOMS)

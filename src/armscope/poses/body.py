@@ -15,13 +15,11 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.core.types import Array
+from armscope.poses.constants import BODY
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 from armscope.robot.description import RobotDescription
 from armscope.robot.urdf import cut, read_urdf
-
-SHORTEST_SHARE = 0.5
-"""Pieces of the centre line shorter than this share of the radius count as part of their neighbours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +75,7 @@ def _along(lines: list[tuple[str, Array]], radius: float) -> list[Capsule]:
     for link, (_, line) in enumerate(lines):
         for k, after in pairwise(range(line.shape[1])):
             length = np.linalg.norm(line[0, after] - line[0, k])  # the same in all poses
-            if length > SHORTEST_SHARE * radius:
+            if length > BODY.shortest * radius:
                 found.append(Capsule(link, len(found), line[:, k], line[:, after], radius))
     return found
 

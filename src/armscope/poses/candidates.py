@@ -9,16 +9,11 @@ import numpy as np
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
+from armscope.poses.constants import DRAWING
 from armscope.poses.obstacles import REASONS, Surroundings, ranges, refusals
 from armscope.recordings import Recordings
 from armscope.recordings.table import unmeasured
 from armscope.robot import Arm
-
-MOST_DRAWN = 40
-"""At most this many poses are drawn per candidate wanted."""
-LARGEST_GRID = 500_000
-WORTH_FREEING = 0.05
-"""Share of possible poses from which an option that would leave them is named: twice what `MOST_DRAWN` asks for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +58,7 @@ def candidates(arm: Arm, count: int, around: Surroundings, seed: int, payload_kg
     sequence = qmc.Halton(arm.n_motors, rng=np.random.default_rng(seed))
     kept: list[Array] = []
     refused, drawn, found = dict.fromkeys(REASONS, 0), 0, 0
-    while found < count and drawn < MOST_DRAWN * count:
+    while found < count and drawn < DRAWING.drawn * count:
         angles = low + sequence.random(count) * (high - low)
         reasons = refusals(arm, angles, around)
         possible = angles[reasons == ""]
@@ -96,7 +91,7 @@ def _too_few(arm: Arm, told: str, most: str, last: Array, around: Surroundings) 
         value, why = np.array([around.floor]), REASONS[1]
     if around.tracker is not None and (share := _possible(arm, last, replace(around, tracker=None))) > best:
         best, option, value, why = share, "--tracker", around.tracker, REASONS[2]
-    if best < WORTH_FREEING:
+    if best < DRAWING.worth_freeing:
         cure = "Check the joint limits, --radius-mm, --floor-mm and --tracker (mm in the arm's base frame)."
         return InputError(arm.name, "", told, f"most: {most}", cure)
     found = ",".join(f"{each * 1e3:g}" for each in value.tolist())
@@ -111,7 +106,7 @@ def _possible(arm: Arm, angles: Array, around: Surroundings) -> float:
 def _pose_rows(angles: Array, rng: np.random.Generator, payload_kg: float = 0.0) -> Recordings:
     """Poses (N, m), rad, to be measured, with side of approach and, in every other row on average, payload."""
     approach = rng.choice([-1.0, 1.0], angles.shape)
-    payload = np.where(rng.random(len(angles)) < 0.5, payload_kg, 0.0) if payload_kg > 0 else None
+    payload = np.where(rng.random(len(angles)) < DRAWING.loaded, payload_kg, 0.0) if payload_kg > 0 else None
     return replace(unmeasured(angles), approach=approach, payload=payload, source="poses")
 
 
@@ -134,8 +129,8 @@ def grid(arm: Arm, count: int, around: Surroundings, rng: np.random.Generator, p
         InputError: no grid of reasonable size has so many possible poses.
     """
     low, high = ranges(arm)
-    levels = 3
-    while levels**arm.n_motors <= LARGEST_GRID:
+    levels = DRAWING.levels
+    while levels**arm.n_motors <= DRAWING.grid:
         steps = np.indices((levels,) * arm.n_motors).reshape(arm.n_motors, -1).T
         angles = low + (steps + 0.5) / levels * (high - low)
         possible = angles[refusals(arm, angles, around) == ""]

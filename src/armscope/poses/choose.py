@@ -12,6 +12,7 @@ from armscope.core.types import Array, Indices
 from armscope.design.exchange import optimal
 from armscope.design.indices import SOURCES, all_indices
 from armscope.poses.candidates import Candidates, candidates, grid, subset
+from armscope.poses.constants import CHOOSING
 from armscope.poses.obstacles import Surroundings
 from armscope.poses.target_parameters import GEOMETRY, TargetParameters, target_parameters
 from armscope.recordings import Recordings
@@ -58,10 +59,10 @@ def choose(
     around: Surroundings | None = None,
     effects: Sequence[str] = (GEOMETRY,),
     index: str = "O1",
-    n_candidates: int = 5000,
+    n_candidates: int = CHOOSING.candidates,
     payload_kg: float = 0.0,
     seed: int = 0,
-    starts: int = 3,
+    starts: int = CHOOSING.starts,
 ) -> Choice:
     """The ``count`` possible poses that show some effects best, by an observability index (O1 is D-optimality).
 
@@ -96,7 +97,7 @@ def choose(
     return Choice(tuple(effects), index, short_way(pool.table.motor_angles, rows), pool, targets, jacobian, around)
 
 
-def by_other_criteria(choice: Choice, seed: int = 0, starts: int = 3) -> dict[str, Recordings]:
+def by_other_criteria(choice: Choice, seed: int = 0, starts: int = CHOOSING.starts) -> dict[str, Recordings]:
     """As many of the same candidates chosen by each of the other indices: name of the index -> poses.
 
     Args:
@@ -152,13 +153,13 @@ def short_way(motor_angles: Array, rows: Indices) -> Indices:
         order.append(min(left, key=lambda each: (ways[here, each], each)))
         left.remove(order[-1])
     tour = np.array(order)
-    for _ in range(20 * len(rows)):
+    for _ in range(CHOOSING.exchanges * len(rows)):
         before, after = tour[:-1], tour[1:]
         saved = (ways[before, after][:, None] + ways[before, after][None]) - (
             ways[before[:, None], before[None]] + ways[after[:, None], after[None]]
         )
         i, j = np.unravel_index(int(np.argmax(np.triu(saved, 1))), saved.shape)
-        if saved[i, j] < 1e-9:
+        if saved[i, j] < CHOOSING.shorter_rad:
             break
         tour[i + 1 : j + 1] = tour[i + 1 : j + 1][::-1].copy()
     return np.asarray(rows[tour])

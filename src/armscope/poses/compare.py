@@ -12,13 +12,10 @@ from armscope.core.types import Array
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
 from armscope.poses.choose import Choice, grid_choice, random_choice
+from armscope.poses.constants import CHOOSING
 from armscope.poses.target_parameters import TargetParameters
 from armscope.recordings import Recordings
 
-HELD_OUT = 300
-"""Possible poses, of another sequence, at which the fitted arm is asked."""
-STEPS = 4
-"""Gauss-Newton steps of a fit: errors of a millimetre leave less than a nanometre after three."""
 RIVALS = ("random", "grid")
 
 
@@ -49,7 +46,7 @@ def compare_sets(
         held_out_rms_mm (3D) and held_out_worst_mm (predicted minus true at poses that took no part).
     """
     targets = choice.targets
-    elsewhere = candidates(targets.arm, HELD_OUT, choice.around, seed + 104729, payload_kg).table
+    elsewhere = candidates(targets.arm, CHOOSING.held_out, choice.around, seed + 104729, payload_kg).table
     fixed = {"chosen": choice.table, **(others or {})}
     draw: dict[str, Callable[[np.random.Generator], Recordings]] = {
         **{name: _always(table) for name, table in fixed.items()},
@@ -110,7 +107,7 @@ def _fitted(targets: TargetParameters, poses: Recordings, measured: Array) -> Ar
     """(p,) parameters in units of their sizes; the slope is taken at the nominal arm."""
     columns = targets.jacobian(poses).reshape(-1, len(targets.terms))
     inverse, values = np.linalg.pinv(columns), np.zeros(len(targets.terms))
-    for _ in range(STEPS):
+    for _ in range(CHOOSING.steps):
         values = values + inverse @ (measured - targets.tool(poses, values)).reshape(-1)
     return values
 

@@ -14,7 +14,7 @@ from armscope.design.indices import SOURCES
 from armscope.physics.effect import Driver
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
-from armscope.poses.obstacles import UNSTATED_RAD
+from armscope.poses.constants import BODY
 from armscope.recordings.columns import angle_columns
 
 FOLLOW_APPROACH = {"approach", "lost motion"}
@@ -67,7 +67,9 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
             "body": body_in_words(choice),
             "floor_mm": None if around.floor is None else around.floor * 1e3,
             "tracker_mm": None if around.tracker is None else (around.tracker * 1e3).tolist(),
-            "motors_without_limits": [f"q{j + 1}: +-{np.degrees(UNSTATED_RAD):g} deg" for j in np.flatnonzero(~stated)],
+            "motors_without_limits": [
+                f"q{j + 1}: +-{np.degrees(BODY.unstated_rad):g} deg" for j in np.flatnonzero(~stated)
+            ],
         },
     }
     if compared is not None:

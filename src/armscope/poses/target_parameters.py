@@ -20,15 +20,12 @@ from armscope.physics.geometric import background
 from armscope.physics.registry import effects as all_effects
 from armscope.physics.registry import library
 from armscope.physics.scene import Scene
+from armscope.poses.constants import CHOOSING
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 GEOMETRY = "geometry"
 """The default set of effects: constant errors of all D-H rows and all motors' zeros."""
-INDEPENDENT = 1e-3
-"""A parameter is told apart from the others if this share of its displacement is beyond their imitation."""
-SIZE_M = 1e-3
-"""Parameters are counted in units that move the tool by this much (RMS over the candidates), so that they compare."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +36,7 @@ class TargetParameters:
         arm: the arm.
         placed: frames first, then the effects.
         terms: (effect number in ``placed``, term) of each parameter kept, p of them.
-        sizes: (p,) SI size of each that moves the tool by `SIZE_M`.
+        sizes: (p,) SI size of each that moves the tool by `CHOOSING.size_m`.
         hidden: names of parameters that the others imitate, or that move nothing.
     """
 
@@ -101,8 +98,8 @@ def target_parameters(arm: Arm, table: Recordings, effects: Sequence[str] = (GEO
     terms = [(number, term) for number, each in enumerate(placed) for term in each.terms]
     columns = np.stack([posture.column(term).reshape(-1) for _, term in terms], axis=1)
     rms = np.sqrt(np.mean(columns**2, axis=0) * 3)
-    moves = rms > 1e-12
-    sizes = np.where(moves, SIZE_M / np.where(moves, rms, 1.0), 1.0)
+    moves = rms > CHOOSING.unmoved_m
+    sizes = np.where(moves, CHOOSING.size_m / np.where(moves, rms, 1.0), 1.0)
     tiers = np.array([_tier(placed[number]) for number, _ in terms])
     kept = _told_apart(columns * sizes, tiers) & moves
     hidden = tuple(_name(placed[number], term) for (number, term), keep in zip(terms, kept, strict=True) if not keep)
@@ -143,7 +140,7 @@ def _told_apart(columns: Array, tiers: Indices) -> NDArray[np.bool_]:
     """Columns of which enough is left beyond those of lower tiers, whatever their size."""
     triangular = np.linalg.qr(columns, mode="r")
     unit = triangular / np.maximum(np.linalg.norm(triangular, axis=0), 1e-300)
-    return independent_columns(unit, tiers, INDEPENDENT)
+    return independent_columns(unit, tiers, CHOOSING.independent)
 
 
 def _name(placed: Placed, term: Term) -> str:

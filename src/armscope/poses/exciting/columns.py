@@ -12,6 +12,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.poses.exciting.constants import DRIVES, SHOWING
 from armscope.robot import Arm
 from armscope.robot.dynamics import (
     attached_bodies,
@@ -23,13 +24,6 @@ from armscope.robot.dynamics import (
 
 LINK_NAMES = ("mass", "m x", "m y", "m z", "I xx", "I xy", "I yy", "I xz", "I yz", "I zz")
 JOINT_NAMES = ("offset", "Coulomb", "viscous", "rotor inertia")
-STANDSTILL = 0.01
-"""rad/s: the width over which the sign of a speed turns."""
-STRIBECK = 0.1
-"""rad/s: a typical speed of the Stribeck effect, for its pattern."""
-CURVE_DEGREE = 5
-SMALL, FEEBLE = 1e-5, 1e-9
-"""Share of a motion by which a link lags, so that torque follows along its slope; and what counts as nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +37,7 @@ class Motion:
 
     def sign(self) -> Array:
         """(N, m) of the speeds."""
-        return np.tanh(self.speed / STANDSTILL)
+        return np.tanh(self.speed / DRIVES.standstill_rad_s)
 
 
 def link_columns(arm: Arm, motion: Motion) -> Array:
@@ -158,23 +152,25 @@ def _behind_a_drive(arm: Arm, motion: Motion, links: Array, j: int) -> Array:
     lag = [np.fft.irfft(waves**order * np.fft.rfft(rigid[:, j]), len(rigid)) for order in range(3)]
     moved = [np.array(each) for each in (motion.angle, motion.speed, motion.acceleration)]
     largest = [float(np.abs(each[:, j]).max()) for each in moved]
-    unit = SMALL * min(most / max(float(np.abs(each).max()), FEEBLE) for most, each in zip(largest, lag, strict=True))
+    unit = DRIVES.lag * min(
+        most / max(float(np.abs(each).max()), SHOWING.nothing) for most, each in zip(largest, lag, strict=True)
+    )
     for values, late in zip(moved, lag, strict=True):
         values[:, j] -= unit * late
     behind = torque_regressor(arm.model, arm.actuation, (moved[0], moved[1], moved[2])) @ stated
-    found: Array = ((behind - rigid) / max(unit, FEEBLE**2))[:, :, None]
+    found: Array = ((behind - rigid) / max(unit, SHOWING.nothing**2))[:, :, None]
     return found
 
 
 def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:
     speed, angle, sign = motion.speed[:, j], motion.angle[:, j], motion.sign()[:, j]
-    centred = (angle - angle.mean()) / max(float(np.ptp(angle)) / 2, 1e-9)
+    centred = (angle - angle.mean()) / max(float(np.ptp(angle)) / 2, SHOWING.nothing)
     one = np.ones_like(angle)
     single = {
         "coulomb_friction": sign,
         "viscous_friction": speed,
         "asymmetric_friction": np.abs(speed),
-        "stribeck_friction": np.exp(-((speed / STRIBECK) ** 2)) * sign,
+        "stribeck_friction": np.exp(-((speed / DRIVES.stribeck_rad_s) ** 2)) * sign,
         "load_friction": np.abs(rigid[:, j]) * sign,
         "rotor_inertia": motion.acceleration[:, j],
         "torque_offset": one,
@@ -183,6 +179,6 @@ def _joint_patterns(motion: Motion, rigid: Array, j: int) -> dict[str, Array]:
     }
     curves = {
         "gravity_balance": np.column_stack([one, angle]),
-        "cable_torque": np.polynomial.chebyshev.chebvander(centred, CURVE_DEGREE),
+        "cable_torque": np.polynomial.chebyshev.chebvander(centred, DRIVES.curve_degree),
     }
     return {name: pattern[:, None] for name, pattern in single.items()} | curves

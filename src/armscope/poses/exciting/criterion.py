@@ -12,15 +12,8 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.design.fourier import Limits
 from armscope.poses.exciting.columns import Motion, all_columns, cause_columns, joint_columns, link_columns, names
+from armscope.poses.exciting.constants import SHOWING
 from armscope.robot import Arm
-
-REFERENCE_SAMPLES = 400
-"""Random states from which it is seen what any motion at all could show."""
-DEPENDENT = 1e-8
-"""Columns whose part of their own is below this share of the largest depend on others (exact in floating point)."""
-FEEBLE = 1e-9
-SAME = 1e-6
-"""Two causes whose torques differ by less than this share in random states are one: no motion tells them apart."""
 
 Pair = tuple[tuple[str, str], tuple[str, str]]
 
@@ -56,16 +49,16 @@ def shown_at_all(arm: Arm, limits: Limits, rng: np.random.Generator) -> Showable
         Base parameters, their units, and what stays hidden.
     """
     low, high = limits.angle.T
-    shape = (REFERENCE_SAMPLES, len(low))
+    shape = (SHOWING.states, len(low))
     angle = rng.uniform(low, high, shape)
     speed, acceleration = (rng.uniform(-most, most, shape) for most in (limits.speed, limits.acceleration))
     columns = all_columns(arm, Motion(angle, speed, acceleration, 1.0))
-    weight = 1 / np.maximum(np.sqrt(np.mean(np.sum(columns**2, axis=2), axis=0)), FEEBLE)
+    weight = 1 / np.maximum(np.sqrt(np.mean(np.sum(columns**2, axis=2), axis=0)), SHOWING.nothing)
     flat = (columns * weight[:, None]).reshape(-1, columns.shape[2])
     size = np.sqrt(np.mean(flat**2, axis=0))
-    there = np.flatnonzero(size > DEPENDENT * size.max())
+    there = np.flatnonzero(size > SHOWING.dependent * size.max())
     _, triangle, order = qr(flat[:, there] / size[there], mode="economic", pivoting=True)
-    rank = int(np.sum(np.abs(np.diag(triangle)) > DEPENDENT * np.abs(triangle[0, 0])))
+    rank = int(np.sum(np.abs(np.diag(triangle)) > SHOWING.dependent * np.abs(triangle[0, 0])))
     base = np.sort(there[order[:rank]])
     called = names(arm)
     hidden = set(range(len(called))) - set(there)
@@ -112,10 +105,10 @@ def motion_score(arm: Arm, shown: Showable, motion: Motion, pairs: tuple[Pair, .
     flat = columns.reshape(-1, columns.shape[2])[:, shown.base] / shown.scale / np.sqrt(len(columns))
     information = flat.T @ flat
     eigenvalues, vectors = np.linalg.eigh(information)
-    condition = float(np.sqrt(eigenvalues[-1] / max(eigenvalues[0], FEEBLE**2)))
+    condition = float(np.sqrt(eigenvalues[-1] / max(eigenvalues[0], SHOWING.nothing**2)))
     weakest = names(arm)[int(shown.base[int(np.argmax(np.abs(vectors[:, 0])))])]
     if not pairs:
-        _, value = np.linalg.slogdet(information + FEEBLE * np.eye(len(information)))
+        _, value = np.linalg.slogdet(information + SHOWING.nothing * np.eye(len(information)))
         return MotionScore(float(value), condition, weakest)
     separations = tuple(separation(arm, shown, motion, pair) for pair in pairs)
     return MotionScore(min(separations), condition, weakest, separations)
@@ -196,19 +189,19 @@ def told_apart(arm: Arm, shown: Showable, limits: Limits, pairs: tuple[Pair, ...
         The three kinds of pairs.
     """
     low, high = limits.angle.T
-    shape = (REFERENCE_SAMPLES, len(low))
+    shape = (SHOWING.states, len(low))
     speed, acceleration = (rng.uniform(-most, most, shape) for most in (limits.speed, limits.acceleration))
     states = Motion(rng.uniform(low, high, shape), speed, acceleration, 1.0)
     links = link_columns(arm, states)
     causes = {cause for pair in pairs for cause in pair}
     known = {cause for cause in causes if cause_columns(arm, states, links, *cause) is not None}
     lawful = tuple(pair for pair in pairs if known.issuperset(pair))
-    apart = tuple(pair for pair in lawful if separation(arm, shown, states, pair) > SAME)
+    apart = tuple(pair for pair in lawful if separation(arm, shown, states, pair) > SHOWING.same)
     alike = tuple(pair for pair in lawful if pair not in apart)
     return Sorted(apart, alike, tuple(pair for pair in pairs if pair not in lawful))
 
 
 def _not_imitated(target: Array, rivals: Array) -> float:
-    scale = np.maximum(np.linalg.norm(rivals, axis=0), FEEBLE)
-    left = target - (rivals / scale) @ np.linalg.lstsq(rivals / scale, target, rcond=1e-9)[0]
-    return float(np.sqrt(np.sum(left**2) / max(float(np.sum(target**2)), FEEBLE)))
+    scale = np.maximum(np.linalg.norm(rivals, axis=0), SHOWING.nothing)
+    left = target - (rivals / scale) @ np.linalg.lstsq(rivals / scale, target, rcond=SHOWING.rank)[0]
+    return float(np.sqrt(np.sum(left**2) / max(float(np.sum(target**2)), SHOWING.nothing)))

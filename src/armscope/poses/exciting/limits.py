@@ -9,16 +9,10 @@ import numpy as np
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.design.fourier import Limits
+from armscope.poses.exciting.constants import DRIVES
 from armscope.poses.obstacles import ranges
 from armscope.robot import Arm
 from armscope.robot.description import Drive
-
-ASSUMED_SPEED = 1.0
-"""rad/s, where no speed limit is stated: half of what a small industrial arm's slowest joint does."""
-ASSUMED_RISE_S = 0.4
-"""Where no acceleration is stated, full speed is reached in this time."""
-UNLIMITED = 1e6
-"""pinocchio's and URDFs' ways to say that there is no limit are larger than this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,13 +39,13 @@ def limits_of(arm: Arm) -> MotionLimits:
         assumed.append("joints without stated limits turn half a turn to either side")
     speed = _first(_of_urdf(arm, arm.model.velocityLimit), [d.speed_deg_s for d in drives], np.pi / 180)
     if not np.isfinite(speed).all():
-        assumed.append(f"joints without a stated speed limit move at {ASSUMED_SPEED:g} rad/s at most")
-        speed = np.where(np.isfinite(speed), speed, ASSUMED_SPEED)
+        assumed.append(f"joints without a stated speed limit move at {DRIVES.speed_rad_s:g} rad/s at most")
+        speed = np.where(np.isfinite(speed), speed, DRIVES.speed_rad_s)
     none = np.full(arm.n_motors, np.inf)
     acceleration = _first(none, [d.acceleration_deg_s2 for d in drives], np.pi / 180)
     if not np.isfinite(acceleration).all():
-        assumed.append(f"joints without a stated acceleration reach full speed in {ASSUMED_RISE_S:g} s")
-        acceleration = np.where(np.isfinite(acceleration), acceleration, speed / ASSUMED_RISE_S)
+        assumed.append(f"joints without a stated acceleration reach full speed in {DRIVES.rise_s:g} s")
+        acceleration = np.where(np.isfinite(acceleration), acceleration, speed / DRIVES.rise_s)
     torque = _first(_of_urdf(arm, arm.model.effortLimit), [d.torque_nm for d in drives], 1.0)
     if not np.isfinite(torque).all():
         assumed.append("torques of joints without a stated limit are not limited")
@@ -64,7 +58,7 @@ def _of_urdf(arm: Arm, values: Array) -> Array:
     if arm.description.urdf is None or arm.description.actuation is not None:
         return np.full(arm.n_motors, np.inf)
     values = np.asarray(values, dtype=float)
-    return np.where((values > 0) & (values < UNLIMITED), values, np.inf)
+    return np.where((values > 0) & (values < DRIVES.unlimited), values, np.inf)
 
 
 def _first(otherwise: Array, stated: list[float | None], unit: float) -> Array:

@@ -12,6 +12,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
+from armscope.poses.exciting.constants import MOTION
 from armscope.poses.exciting.criterion import (
     MotionScore,
     Pair,
@@ -24,23 +25,6 @@ from armscope.poses.exciting.limits import MotionLimits, limits_of
 from armscope.poses.obstacles import REASONS, Surroundings, refusals
 from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
-
-SAMPLES, PER_WAVE = 80, 8
-"""Samples of a motion in the search, and at least so many of its shortest wave."""
-FINER = 4
-"""Torque is looked at in steps so many times as fine as positions are: it peaks where several joints' waves meet."""
-STARTS = 24
-"""Random motions of which the best is bettered; their median is what "before" means."""
-USES = (0.95, 0.7, 0.5, 0.35)
-"""Shares of the limits that are tried in turn until torques and surroundings allow the motion."""
-SMALLER = (0.5, 0.35, 0.25, 0.15, 0.1)
-"""Shares of their waves that are tried about poses that are clear, where no motion over the limits is allowed."""
-CLEAR_POSES = 2000
-"""Random poses among which clear ones are looked for: of an arm that folds onto itself one in a hundred would do."""
-TORQUE_USE = 0.99
-"""Share of the torques' limits that may be used: between its samples a torque is higher by less."""
-NARROWING, LEAST_STEP = 0.35, 0.02
-"""How far coefficients are moved at first, as a share of their size; less and less towards the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +63,9 @@ class Excitation:
 class MotionRequest:
     """What motion is wanted: seconds of its period, harmonics, rounds of bettering, seed, causes to tell apart."""
 
-    period: float = 20.0
-    harmonics: int = 5
-    rounds: int = 400
+    period: float = MOTION.period_s
+    harmonics: int = MOTION.harmonics
+    rounds: int = MOTION.rounds
     seed: int = 0
     pairs: tuple[Pair, ...] = ()
 
@@ -108,7 +92,9 @@ def excite(
     shown = shown_at_all(arm, limits.path, rng)
     asked = told_apart(arm, shown, limits.path, wanted.pairs, rng)
     search = _Search(arm, limits, around, shown, replace(wanted, pairs=asked.apart))
-    found = [path for path in (search.allowed(_draw(limits, wanted, rng)) for _ in range(STARTS)) if path is not None]
+    found = [
+        path for path in (search.allowed(_draw(limits, wanted, rng)) for _ in range(MOTION.starts)) if path is not None
+    ]
     most = np.inf
     if not found:
         found, most = search.about_clear_poses(rng), 1.0
@@ -145,8 +131,8 @@ def _bettered(
     path, best = found[int(order[-1])], scores[int(order[-1])]
     rounds = search.wanted.rounds
     for number in range(rounds):
-        step = NARROWING * (1 - number / rounds) + LEAST_STEP
-        tried = _moved(path, step, rng).resting().fitted(search.limits.path, USES[0], most)
+        step = MOTION.narrowing * (1 - number / rounds) + MOTION.least_step
+        tried = _moved(path, step, rng).resting().fitted(search.limits.path, MOTION.uses[0], most)
         worth = search.score(tried)
         if worth.value > best.value and search.possible(tried):
             path, best = tried, worth
@@ -167,7 +153,7 @@ class _Search:
         self.why: Counter[str] = Counter()
 
     def motion(self, path: FourierPath) -> Motion:
-        count = max(SAMPLES, PER_WAVE * path.harmonics)
+        count = max(MOTION.samples, MOTION.per_wave * path.harmonics)
         time = np.arange(count) * path.period / count
         return Motion(*path.at(time), step=path.period / count)
 
@@ -177,13 +163,13 @@ class _Search:
 
     def torques(self, path: FourierPath) -> Array:
         """(N, m) of the stated model, fine enough to see its peaks."""
-        fine = path.over_period(FINER)
+        fine = path.over_period(MOTION.finer)
         found: Array = all_columns(self.arm, Motion(*fine, step=path.period / len(fine[0]))) @ self.numbers
         return found
 
     def possible(self, path: FourierPath) -> bool:
         """Whether torques and surroundings allow it."""
-        beyond = np.any(np.abs(self.torques(path)) > TORQUE_USE * self.limits.torque, axis=0)
+        beyond = np.any(np.abs(self.torques(path)) > MOTION.torque_use * self.limits.torque, axis=0)
         reasons = [f"goes beyond the torque of joint {j + 1}" for j in np.flatnonzero(beyond)]
         if not reasons:
             angle, _, _ = path.over_period()
@@ -194,7 +180,7 @@ class _Search:
 
     def allowed(self, path: FourierPath) -> FourierPath | None:
         """The motion, made smaller where it must be."""
-        for use in USES:
+        for use in MOTION.uses:
             smaller = path.fitted(self.limits.path, use)
             if self.possible(smaller):
                 return smaller
@@ -207,16 +193,16 @@ class _Search:
             InputError: none is possible either.
         """
         low, high = self.limits.path.angle.T
-        poses = rng.uniform(low, high, (CLEAR_POSES, len(low)))
+        poses = rng.uniform(low, high, (MOTION.clear_poses, len(low)))
         reasons = refusals(self.arm, poses, self.around)
-        clear, found = poses[reasons == ""][:STARTS], []
+        clear, found = poses[reasons == ""][: MOTION.starts], []
         if not len(clear):
             self.why = Counter(map(str, reasons))
         for pose in clear:
             path = _draw(self.limits, self.wanted, rng)
-            for share in SMALLER:
+            for share in MOTION.smaller:
                 small = replace(path, centre=pose, sine=share * path.sine, cosine=share * path.cosine)
-                small = small.fitted(self.limits.path, USES[0], 1.0)
+                small = small.fitted(self.limits.path, MOTION.uses[0], 1.0)
                 if self.possible(small):
                     found.append(small)
                     break
@@ -233,7 +219,7 @@ class _Search:
         elif reason == REASONS[0]:
             cure = f"Links are {1e3 * self.around.radius_of(self.arm):.0f} mm thick about their lines: see --radius-mm."
         rule = f"nor is any of {clear} small ones about poses that are clear; most often, the arm {reason}"
-        return InputError(self.arm.name, "", f"{STARTS} motions refused", rule, cure)
+        return InputError(self.arm.name, "", f"{MOTION.starts} motions refused", rule, cure)
 
 
 def _draw(limits: MotionLimits, wanted: MotionRequest, rng: np.random.Generator) -> FourierPath:

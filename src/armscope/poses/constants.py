@@ -1,0 +1,132 @@
+"""Numbers that decide which poses are possible and which are chosen; see `armscope.core.constants`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.core.constants import Constants, constant
+
+
+@dataclass(frozen=True)
+class BodyRules(Constants):
+    """What an arm's body is taken for, and when a pose hits something or hides the tool."""
+
+    radius: float = constant(
+        0.04,
+        "of a link as a share of the arm's reach, where there are no collision shapes",
+        "judgement: 100 mm for a reach of 2.5 m",
+    )
+    shortest: float = constant(
+        0.5,
+        "share of the radius below which a piece of the centre line is a part of its neighbours",
+        "judgement: it lies within them",
+    )
+    always: float = constant(
+        0.9,
+        "share of the poses from which two pieces that touch do so by the assumed radius, not by the pose",
+        "judgement: an arm whose links meet in most poses is not built",
+    )
+    clear_of_tool: float = constant(
+        2.0,
+        "from the tool point, at which the line of sight starts",
+        "judgement: nearer by is the reflector's holder",
+        unit="radii",
+    )
+    probes: int = constant(
+        200,
+        "poses over the whole ranges that say which pieces always touch, and which never move",
+        "judgement: a share of 0.9 is then known to 2 %",
+        unit="poses",
+    )
+    unstated_rad: float = constant(
+        np.pi,
+        "to which a motor without stated limits turns, either way",
+        "judgement: a turn in all shows everything",
+        unit="rad",
+    )
+    still_m: float = constant(
+        1e-9,
+        "motion of a piece's end over the probes below which it never moves",
+        "derived: far above rounding",
+        unit="m",
+    )
+    no_length_m2: float = constant(
+        1e-18, "square of a piece's length below which it is a point", "derived: far below any length", unit="m2"
+    )
+    parallel: float = constant(
+        1e-12,
+        "square of the sine between two pieces below which they are parallel",
+        "derived: some thousand times rounding",
+    )
+
+
+@dataclass(frozen=True)
+class CandidateRules(Constants):
+    """How possible poses are drawn, and laid out as a grid."""
+
+    drawn: int = constant(
+        40,
+        "for each candidate wanted, at most",
+        "judgement: where fewer than one in forty is possible, the surroundings are wrong",
+        unit="poses",
+    )
+    worth_freeing: float = constant(
+        0.05,
+        "share of possible poses from which an option that would leave them is named",
+        "derived: twice the one in forty that is asked for",
+    )
+    grid: int = constant(500_000, "of the finest grid, at most", "judgement: time and memory", unit="poses")
+    levels: int = constant(
+        3,
+        "steps of a joint in the coarsest grid",
+        "derived: two cannot tell a turn from a shift of the link beyond",
+        unit="steps",
+    )
+    loaded: float = constant(0.5, "share of the poses that carry the payload", "judgement: as many with as without")
+
+
+@dataclass(frozen=True)
+class ChoosingRules(Constants):
+    """How poses are chosen of the candidates, and compared with others."""
+
+    candidates: int = constant(
+        5000, "possible poses to choose from, where none are asked for", "judgement: time", unit="poses"
+    )
+    starts: int = constant(3, "of the search, the best of which is taken", "judgement: time")
+    independent: float = constant(
+        1e-3,
+        "share of a parameter's displacement that must be beyond what others imitate, for it to be told apart",
+        "judgement: of a millimetre a micrometre, and no instrument sees less",
+    )
+    size_m: float = constant(
+        1e-3,
+        "RMS at the tool over the candidates that a unit of each parameter makes",
+        "convention: so that parameters compare",
+        unit="m",
+    )
+    unmoved_m: float = constant(
+        1e-12, "RMS of the tool by a unit of a parameter below which it moves nothing", "derived: rounding", unit="m"
+    )
+    exchanges: int = constant(
+        20, "rounds of shortening the way for each pose", "judgement: more than it takes", unit="rounds"
+    )
+    shorter_rad: float = constant(
+        1e-9, "by which the way must become shorter, or the rounds end", "derived: far above rounding", unit="rad"
+    )
+    held_out: int = constant(
+        300,
+        "possible poses of another sequence at which a fitted arm is asked",
+        "judgement: an RMS is then known to a few per cent",
+        unit="poses",
+    )
+    steps: int = constant(
+        4,
+        "of Gauss-Newton in its fit",
+        "derived: errors of a millimetre leave less than a nanometre after three",
+        unit="steps",
+    )
+
+
+BODY, DRAWING, CHOOSING = BodyRules(), CandidateRules(), ChoosingRules()
