@@ -30,6 +30,7 @@ ROOMS = (
     "comparison",
     "fleet",
     "poses",
+    "real",
 )
 """Rooms whose every number is on the page."""
 SHOWN = ("physics", *ROOMS)

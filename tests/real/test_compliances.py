@@ -11,14 +11,8 @@ from typer.testing import CliRunner
 from armscope.cli import app
 from armscope.core.files import write_yaml
 from armscope.real.compliance_tables import agreement_in_words, compare_runs
-from armscope.real.compliances import (
-    PRIOR,
-    Give,
-    as_heavy_as_recorded,
-    compare_compliances,
-    fit_give,
-    gravity_as_recorded,
-)
+from armscope.real.compliances import Give, as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
+from armscope.real.constants import COMPLIANCE
 from armscope.real.reference import ReferenceCompliances
 from armscope.real.simulated_comparison import compare_on_simulated_arms, draw_arm, simulate_recordings
 from armscope.recordings import Recordings
@@ -83,19 +77,19 @@ def test_a_run_of_two_joints_knows_that_it_cannot_tell_drives_apart(runs):
     rng = np.random.default_rng(5)
     drawn = draw_arm(arm, everywhere, rng)
     one, other = (fit_give(arm, simulate_recordings(arm, each, drawn, 1.0, rng), "x") for each in (everywhere, two))
-    assert one.stderr[3] < 0.5 * PRIOR
-    assert other.stderr[3] > 0.5 * PRIOR
+    assert one.stderr[3] < 0.5 * COMPLIANCE.prior_rad_nm
+    assert other.stderr[3] > 0.5 * COMPLIANCE.prior_rad_nm
     # joint 1 turns about gravity's line: no load, nothing learned
-    assert other.stderr[0] == pytest.approx(PRIOR)
+    assert other.stderr[0] == pytest.approx(COMPLIANCE.prior_rad_nm)
     together = compare_compliances(one, other)
     assert len(together.directions) >= 1
-    assert together.stderr[0] < 0.1 * PRIOR
+    assert together.stderr[0] < 0.1 * COMPLIANCE.prior_rad_nm
 
 
 def measured(rng, truth, rows_, noise):
     """What a linear measurement with Gaussian noise says of a truth that was drawn from the prior."""
     columns = rows_ / noise
-    posterior = np.linalg.inv(columns.T @ columns + np.eye(len(truth)) / PRIOR**2)
+    posterior = np.linalg.inv(columns.T @ columns + np.eye(len(truth)) / COMPLIANCE.prior_rad_nm**2)
     mean = posterior @ columns.T @ (columns @ truth + rng.normal(size=len(rows_)))
     return Give("run", 0, mean, posterior, posterior, 0.0, 1.0)
 
@@ -105,7 +99,7 @@ def test_probabilities_are_what_they_say_where_everything_is_known():
     rng = np.random.default_rng(1)
     probabilities = []
     for _ in range(600):
-        truth = PRIOR * rng.normal(size=4)
+        truth = COMPLIANCE.prior_rad_nm * rng.normal(size=4)
         one = measured(rng, truth, rng.normal(size=(3, 4)), 3e-5)
         other = measured(rng, truth, rng.normal(size=(2, 4)), 1e-5)
         probabilities.append(compare_compliances(one, other).probability)
@@ -114,8 +108,8 @@ def test_probabilities_are_what_they_say_where_everything_is_known():
     # the F distribution of so many blocks is a little wider than the chi-square that holds here
     assert 0.015 < np.mean(told < 0.05) < 0.065
     assert 0.42 < np.mean(told < 0.5) < 0.55
-    one = measured(rng, np.array([PRIOR, 0.0]), np.eye(2), 1e-5)
-    other = measured(rng, np.array([0.2 * PRIOR, 0.0]), np.eye(2), 1e-5)
+    one = measured(rng, np.array([COMPLIANCE.prior_rad_nm, 0.0]), np.eye(2), 1e-5)
+    other = measured(rng, np.array([0.2 * COMPLIANCE.prior_rad_nm, 0.0]), np.eye(2), 1e-5)
     assert compare_compliances(one, other).probability < 1e-4
 
 

@@ -12,20 +12,18 @@ from scipy.stats import t as t_distribution
 
 from armscope.core.location import Location
 from armscope.core.types import Array, unheard
-from armscope.real.compliances import BLOCKS, Agreement, Give, compare_compliances, fit_give
+from armscope.real.compliances import Agreement, Give, compare_compliances, fit_give
+from armscope.real.constants import COMPLIANCE
 from armscope.real.reference import ReferenceCompliances
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-SURE = 0.95
-TOLD = 0.15
-"""Weights in a combination that are told."""
 POINTS, ORIENTATIONS = "points alone", "points and orientations"
 
 
 def half_width(stderr: float) -> float:
     """Of a 95 % interval from a standard error by a jackknife over the blocks."""
-    return stderr * float(t_distribution.ppf((1 + SURE) / 2, BLOCKS - 1))
+    return stderr * float(t_distribution.ppf((1 + COMPLIANCE.sure) / 2, COMPLIANCE.blocks - 1))
 
 
 def agreement_in_words(direction: Array, n_motors: int) -> str:
@@ -33,7 +31,7 @@ def agreement_in_words(direction: Array, n_motors: int) -> str:
     weights = direction / direction[np.argmax(np.abs(direction))]
     order = np.argsort(-np.abs(weights), kind="stable")
     told = []
-    for number in order[np.abs(weights[order]) >= TOLD]:
+    for number in order[np.abs(weights[order]) >= COMPLIANCE.told]:
         name = f"drive {number + 1}" if number < n_motors else f"bearing {number - n_motors + 1}"
         sign = "-" if weights[number] < 0 else "+"
         size = f"{abs(weights[number]):.1f} " if abs(weights[number]) < 0.95 else ""

@@ -42,25 +42,11 @@ from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.transmission import mesh
+from armscope.real.constants import COMPLIANCE
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
 from armscope.robot.arm import build_arm
 from armscope.robot.gravity import gravity_torques, mass_moment_regressor
-
-PRIOR = 1e-4
-"""rad/(N m), standard deviation of every drive's and bearing's compliance: 10 N m turn it by a milliradian. Drives of
-arms of this size give a few times less."""
-WAVES, WAVE = (1, 2, 3, 4), 1e-4
-"""Periods per turn of angle errors allowed for, and their standard deviation, rad: a tenth of what geometry may be off;
-so is an axis' direction, once and twice per turn."""
-BLOCKS = 20
-"""Of consecutive rows: enough to tell a variance, and each long beside what hangs together."""
-UNSEEN = 1e-4
-"""Combinations of mass moments that load no joint by more than this share of the strongest are left out."""
-STEPS, NEGLIGIBLE = 8, 1e-3
-"""Gauss-Newton ends when residuals move by less than this share of what noise leaves uncertain."""
-DETERMINED = 0.5
-"""Runs are compared in combinations that both together leave less uncertain than this share of the prior."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +97,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     _, table, _ = trusted_channels(supported(table), table, residuals(model, table))
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
     bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
-    waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in WAVES]
+    waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in COMPLIANCE.waves]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
     parts = parameter_layout(free_frames(table, tool_per_run), families, [])
     small = [p for family in families for p in family]
@@ -123,7 +109,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     number = np.array(joint) + arm.n_motors * (np.arange(len(joint)) >= len(drives))
 
     def of_all(matrix: Array) -> Array:
-        full = PRIOR**2 * np.eye(arm.n_motors + arm.n_joints)
+        full = COMPLIANCE.prior_rad_nm**2 * np.eye(arm.n_motors + arm.n_joints)
         full[np.ix_(number, number)] = matrix[np.ix_(at, at)]
         return full
 
@@ -158,7 +144,7 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
         columns = regressor.reshape(-1, regressor.shape[-1])
         torque = table.torque[mine].ravel()
         known = np.isfinite(torque)
-        moments = np.linalg.lstsq(columns[known], torque[known], rcond=UNSEEN)[0]
+        moments = np.linalg.lstsq(columns[known], torque[known], rcond=COMPLIANCE.unseen)[0]
         smooth[mine] = (columns @ moments).reshape(-1, arm.n_motors)
     return smooth
 
@@ -166,7 +152,9 @@ def gravity_as_recorded(arm: Arm, table: Recordings) -> Array:
 def _precision(parts: ParameterLayout) -> Array:
     """(p,) prior precisions, SI units; frames are free."""
     precision = np.zeros(len(parts.terms))
-    for columns, size in zip(parts.background, (FORM.tolerance, PRIOR, WAVE), strict=True):
+    for columns, size in zip(
+        parts.background, (FORM.tolerance, COMPLIANCE.prior_rad_nm, COMPLIANCE.wave_rad), strict=True
+    ):
         precision[columns] = size**-2
     return precision
 
@@ -177,9 +165,11 @@ def _settled(
     """Sums over each block of rows where the exact fit settles, and the noise there (mm)."""
     rows = RowNoise(np.ones(len(table)), np.ones(len(table)))
     model = replace(model, background=tuple(Part(placed, np.zeros(len(placed.terms))) for placed in small))
-    problem = ModelFit(parts, table, lambda left: rows.weights(left, 0.0), lambda gram: precision, 0.0, NEGLIGIBLE)
-    found = gauss_newton(problem, model, STEPS)
-    block = np.arange(len(table)) * BLOCKS // len(table)
+    problem = ModelFit(
+        parts, table, lambda left: rows.weights(left, 0.0), lambda gram: precision, 0.0, COMPLIANCE.negligible
+    )
+    found = gauss_newton(problem, model, COMPLIANCE.steps)
+    block = np.arange(len(table)) * COMPLIANCE.blocks // len(table)
     return normal_equations_by_block(parts, found.state, table, rows.weights(found.residual, 0.0), block), problem.noise
 
 
@@ -230,8 +220,8 @@ def compare_compliances(one: Give, other: Give) -> Agreement:
     Cov(m1 - m2) = C1 + C2 - (P1 P^-1 P2 + transposed) with the posteriors P1, P2 and the prior P.
     """
     size, vectors = np.linalg.eigh(one.posterior + other.posterior)
-    directions = vectors[:, size < (DETERMINED * PRIOR) ** 2].T
-    common = one.posterior @ other.posterior / PRIOR**2
+    directions = vectors[:, size < (COMPLIANCE.determined * COMPLIANCE.prior_rad_nm) ** 2].T
+    common = one.posterior @ other.posterior / COMPLIANCE.prior_rad_nm**2
     covariance = directions @ (one.covariance + other.covariance - common - common.T) @ directions.T
     difference = directions @ (one.mean - other.mean)
     k = len(directions)
@@ -239,6 +229,6 @@ def compare_compliances(one: Give, other: Give) -> Agreement:
         return Agreement(one.run, other.run, directions, difference, np.empty(0), np.nan, np.nan)
     statistic = float(difference @ np.linalg.solve(covariance, difference))
     # two covariances of so many blocks each: Hotelling's T^2 is an F
-    free = 2 * (BLOCKS - 1)
+    free = 2 * (COMPLIANCE.blocks - 1)
     chance = float(f_distribution.sf(statistic * (free - k + 1) / (free * k), k, free - k + 1))
     return Agreement(one.run, other.run, directions, difference, np.sqrt(np.diag(covariance)), statistic, chance)

@@ -16,17 +16,8 @@ from armscope.physics.effect import Part
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.scene import Scene
+from armscope.real.constants import CURVES
 from armscope.recordings import Recordings
-
-STEP = np.radians(0.5)
-NO_TURN = 1e-12
-"""rad; rounding, not a turn."""
-LEAST_IN_COMMON = np.radians(30.0)
-"""Below this, what is left of a curve without its slow part says little."""
-KNOWN = 0.5
-"""A curve is known where its standard error is below this share of its standard deviation."""
-SLOW_DEGREE = 3
-"""Geometry and the rest of a curve imitate each other up to about such a polynomial of the angle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +46,7 @@ class Shared:
     @property
     def in_common(self) -> float:
         """How much of the joint's range both runs know, rad."""
-        return float(STEP * np.count_nonzero(np.isfinite(self.one)))
+        return float(CURVES.step_rad * np.count_nonzero(np.isfinite(self.one)))
 
 
 def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
@@ -74,7 +65,7 @@ def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
     turns = np.column_stack(
         [twists[name][:, 5] if (name := f"joint {j + 1}") in twists else np.zeros(len(rows)) for j in range(joints)]
     )
-    if np.ptp(turns, axis=0).max() < NO_TURN:
+    if np.ptp(turns, axis=0).max() < CURVES.no_turn_rad:
         return None
     motors = np.linalg.lstsq(model.arm.actuation, turns.T, rcond=None)[0].T
     return replace(rows, motor_angles=rows.motor_angles + motors)
@@ -102,9 +93,9 @@ def shared(table: pd.DataFrame) -> list[Shared]:
     for joint, of_joint in table.groupby("joint"):
         by_run = {str(run): rows for run, rows in of_joint.groupby("run", sort=False)}
         for one, other in combinations(by_run, 2):
-            at = np.arange(*_overlap(by_run[one]["angle_rad"], by_run[other]["angle_rad"]), STEP)
+            at = np.arange(*_overlap(by_run[one]["angle_rad"], by_run[other]["angle_rad"]), CURVES.step_rad)
             known = _known(at, by_run[one]) & _known(at, by_run[other])
-            if STEP * np.count_nonzero(known) > LEAST_IN_COMMON:
+            if CURVES.step_rad * np.count_nonzero(known) > CURVES.common_rad:
                 values = [_without_slow_part(at, by_run[run], known) for run in (one, other)]
                 found.append(Shared(str(joint), (one, other), at, *values))
     return found
@@ -117,10 +108,10 @@ def _overlap(one: Iterable[float], other: Iterable[float]) -> tuple[float, float
 def _known(at: Array, curve: pd.DataFrame) -> NDArray[np.bool_]:
     """Where a curve's standard error is small beside what the curve does."""
     stderr = np.interp(at, curve["angle_rad"], curve["stderr_rad"])
-    return np.asarray(stderr < KNOWN * curve["turn_rad"].std())
+    return np.asarray(stderr < CURVES.known * curve["turn_rad"].std())
 
 
 def _without_slow_part(at: Array, curve: pd.DataFrame, known: NDArray[np.bool_]) -> Array:
     value = np.interp(at, curve["angle_rad"], curve["turn_rad"])
-    slow = np.polynomial.Polynomial.fit(at[known], value[known], SLOW_DEGREE)
+    slow = np.polynomial.Polynomial.fit(at[known], value[known], CURVES.slow_degree)
     return np.where(known, value - slow(at), np.nan)

@@ -17,19 +17,13 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.real.constants import LARGEST
+from armscope.real.constants import CONCEALING, LARGEST
 from armscope.real.simulated_effects import SimulatedEffects
 from armscope.world.effect_placement import LARGEST_FACTOR
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
 from armscope.world.rivals import ALTERNATIVE_NATS, Judge, Visibility
 from armscope.world.spec import KINDS
 from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized
-
-MOVES_RAD = 0.05
-"""A joint that moves less than this cannot show what follows its angle."""
-ROUNDS = 3
-TRIES = 4
-"""Places among which that with the fewest alternatives is taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +109,7 @@ def _best_placed(
                 found.append(_sized(simulated, judge, effect, size, level, largest_factor))
             except CannotPlantError as error:
                 reasons += [str(error)] if largest_factor == np.inf else []
-            if len(found) == TRIES:
+            if len(found) == CONCEALING.tries:
                 break
         if found:
             return min(found, key=lambda each: len(each.visibility.alternatives)).effect
@@ -132,7 +126,7 @@ def _places(simulated: SimulatedEffects, kind: Kind) -> list[str]:
     torque = prepared.recordings.torque
     if kind.driver == LOAD and torque is None and not prepared.arm.has_masses:
         raise CannotPlantError("neither link masses nor torques are known: nothing to give way under")
-    moves = np.ptp(prepared.recordings.motor_angles, axis=0) > MOVES_RAD
+    moves = np.ptp(prepared.recordings.motor_angles, axis=0) > CONCEALING.moves_rad
     load = np.abs(torque).max(axis=0) if torque is not None else simulated.scenes[0].torque_scale
     found = []
     for place in kind.places(prepared.arm.description):
@@ -162,11 +156,11 @@ def _sized(
         CannotPlantError: frames or links take nearly all of it, or it would be absurd.
     """
     train, total = simulated.prepared.train, 1.0
-    for _ in range(ROUNDS):
+    for _ in range(CONCEALING.rounds):
         moved = simulated.moved(effect)
         left = simulated.left(moved)
         raw, after = rms(moved[train]), rms(left[train])
-        if raw < 1e-9 or after < SEEN_SHARE * raw:
+        if raw < CONCEALING.unmoved_m or after < SEEN_SHARE * raw:
             raise CannotPlantError("frames absorb it")
         factor = size * level / after
         total *= factor

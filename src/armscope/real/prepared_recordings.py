@@ -20,13 +20,10 @@ from armscope.calibration.splits import random_split
 from armscope.core.grouping import named_configuration
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
+from armscope.real.constants import CONCEALING
 from armscope.recordings import Recordings, as_recordings
 from armscope.robot import Arm
 
-SWING_K = 8.0
-"""Span of the made-up temperature."""
-TURNS_OF_SWING = 1.3
-STILL_RAD = 1e-6
 KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|q[wxyz]|tau\d+_nm|payload_kg|sigma_[xyz]_mm|approach\d+|temperature_c"
 
 
@@ -131,7 +128,7 @@ def _approach(angles: Array, configuration: Indices) -> NDArray[np.int64]:
     """(N, m) sign of each joint's step from the configuration before; a joint that stood still keeps its side."""
     first = np.unique(configuration, return_index=True)[1]
     steps = np.diff(angles[first], axis=0, prepend=angles[first][:1])
-    side = np.where(np.abs(steps) > STILL_RAD, np.sign(steps), 0).astype(int)
+    side = np.where(np.abs(steps) > CONCEALING.stopped_rad, np.sign(steps), 0).astype(int)
     for row in range(1, len(side)):
         side[row] = np.where(side[row] == 0, side[row - 1], side[row])
     side[side == 0] = 1
@@ -150,5 +147,5 @@ def _thinned(table: pd.DataFrame, configuration: Indices, most_rows: int) -> pd.
 
 def _temperature(configuration: Indices) -> Array:
     """A slow swing over the recording, deg C."""
-    phase = 2 * np.pi * TURNS_OF_SWING * configuration / max(int(configuration.max()), 1)
-    return np.asarray((20.0 + SWING_K / 2 * (1 + np.sin(phase))).round(2))
+    phase = 2 * np.pi * CONCEALING.swings * configuration / max(int(configuration.max()), 1)
+    return np.asarray((CONCEALING.coolest_c + CONCEALING.swing_k / 2 * (1 + np.sin(phase))).round(2))

@@ -23,6 +23,7 @@ from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.errormodels.features import PAPER_MODELS
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.measurement.orientations import ORIENTATIONS
+from armscope.paper.enough_poses import PRINTED_COUNT
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.real import real_measurements
 from armscope.physics.model import predict
@@ -31,7 +32,6 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 ARMSCOPE, ORIENTED, UNCORRECTED = "armscope", "armscope, orientations too", "frames only"
-PAPER_ROWS = 85
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,7 @@ def effects_named(verdict: Diagnosis) -> list[dict[str, object]]:
 
 def paper_models(arm: Arm, table: Recordings) -> list[dict[str, object]]:
     """The paper's models at 85 identification rows, by least squares: rows of model, split, train, test, rms_mm."""
-    sets = {each.name: each for each in real_measurements(arm, table, 0, PAPER_ROWS).measurements.sets}
+    sets = {each.name: each for each in real_measurements(arm, table, 0, PRINTED_COUNT).measurements.sets}
     train, test = sets.pop(IDENTIFICATION), next(iter(sets.values()))
     found: list[tuple[str, Array]] = [(UNCORRECTED, test.errors_mm[0])]
     for spec in PAPER_MODELS:

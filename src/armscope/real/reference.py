@@ -9,6 +9,7 @@ from pydantic import Field
 
 from armscope.core.config import Count, Positive
 from armscope.core.inputs import Strict, load
+from armscope.real.constants import PROTOCOL
 
 
 class Best(Strict):
@@ -33,7 +34,7 @@ class ReferenceRun(Strict):
     name: str
     run: str
     first_id: int | None = None
-    splits: Count = 5
+    splits: Count = PROTOCOL.splits
     most_rows: Count | None = None
     figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Positive, Positive]]
     best: Best | None = None

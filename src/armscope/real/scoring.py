@@ -45,12 +45,12 @@ from armscope.proof.intervals import Compared, compare_numbers
 from armscope.proof.reading import sealed_batches
 from armscope.proof.scoring import names_in_a_cell
 from armscope.proof.truth import Concealed, unsealed
+from armscope.real.constants import CONCEALING
 from armscope.real.making import LEFT_MM
 from armscope.recordings.columns import AXES_MM
 from armscope.verdict.effects import UNKNOWN
 
 JUMP, ROW = "jump_between_ids", "row"
-CHANGED_SHARE = 0.5
 LOAD_WORDS = ("load", "gravity", "moment", "torque")
 
 
@@ -198,8 +198,8 @@ def _changed(claim: NamedEffect, truth: Concealed, content: dict[str, Any], befo
         # with masses unknown a drive's compliance is told as other numbers
         if name in claim.parameters and name in same[0].parameters:
             step = claim.parameters[name][0] - same[0].parameters[name][0]
-            return step / planted >= CHANGED_SHARE
-    return bool(abs(claim.rms_mm**2 - same[0].rms_mm ** 2) >= (CHANGED_SHARE * content["rms_mm"]) ** 2)
+            return step / planted >= CONCEALING.changed
+    return bool(abs(claim.rms_mm**2 - same[0].rms_mm ** 2) >= (CONCEALING.changed * content["rms_mm"]) ** 2)
 
 
 def _scanned(claim: NamedEffect) -> tuple[float, ...]:

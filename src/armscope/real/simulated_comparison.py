@@ -22,21 +22,13 @@ from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
 from armscope.real.compliances import as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
+from armscope.real.constants import COMPLIANCE, DRAWN
 from armscope.real.reference import ReferenceCompliances
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 KINDS = {"the same arm": 1.0, "an arm 15 % softer": 1.15}
 """What the other run is recorded on: by how much its compliances are larger."""
-DRIVES, BEARINGS = (2e-5, 1e-4), (0.0, 5e-5)
-"""rad/(N m), between which compliances are drawn."""
-GEOMETRY, WAVE, WOBBLE, MESH, DRAGGED = 5e-4, 1e-4, 5e-5, 4e-5, 5e-5
-"""Standard deviations: m and rad; rad; rad; rad; rad/rad (one joint in ten)."""
-GAP, BEND, BASE = 1e-4, 4e-5, 5e-6
-"""The largest that is drawn: rad; 1/(N m^2); rad/(N m)."""
-POINT_MM, TURN_MRAD, BAD_SHOTS, FAR_MM = 0.08, 0.8, 0.01, 1.0
-AGREES = 0.05
-"""A smaller probability is called a disagreement."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,19 +51,23 @@ def draw_arm(arm: Arm, rows: Recordings, rng: np.random.Generator) -> DrawnArm:
     Returns:
         Compliances of drives and bearings, rad/(N m), and all other effects.
     """
-    drives, bearings = rng.uniform(*DRIVES, arm.n_motors), rng.uniform(*BEARINGS, arm.n_joints)
-    normal = [(geometric.background(arm), GEOMETRY), (transmission.GEAR_ECCENTRICITY.place(arm, rows), WAVE)]
-    normal += [(geometric.AXIS_WOBBLE.place(arm, rows), WOBBLE)]
-    counts = rng.integers(5, 20, arm.n_motors)
-    normal += [([transmission.mesh(j + 1, int(count)) for j, count in enumerate(counts)], MESH)]
-    dragged = [placed for placed in transmission.JOINT_COUPLING.place(arm, rows) if rng.random() < 0.1]
-    normal += [(dragged, DRAGGED)]
+    drives = rng.uniform(*DRAWN.drives_rad_nm, arm.n_motors)
+    bearings = rng.uniform(*DRAWN.bearings_rad_nm, arm.n_joints)
+    normal = [
+        (geometric.background(arm), DRAWN.geometry),
+        (transmission.GEAR_ECCENTRICITY.place(arm, rows), DRAWN.wave_rad),
+    ]
+    normal += [(geometric.AXIS_WOBBLE.place(arm, rows), DRAWN.wobble_rad)]
+    counts = rng.integers(*DRAWN.mesh_waves, arm.n_motors)
+    normal += [([transmission.mesh(j + 1, int(count)) for j, count in enumerate(counts)], DRAWN.mesh_rad)]
+    dragged = [placed for placed in transmission.JOINT_COUPLING.place(arm, rows) if rng.random() < DRAWN.dragging]
+    normal += [(dragged, DRAWN.dragged)]
     rest = [Part(placed, size * rng.normal(size=len(placed.terms))) for places, size in normal for placed in places]
     gaps = [placed for placed in transmission.BACKLASH.place(arm, rows) if placed.variant == "load"]
     positive = [
-        (gaps, GAP),
-        (elastic.LINK_BENDING.place(arm, rows), BEND),
-        ([base for base in elastic.BASE_COMPLIANCE.place(arm, rows) if not base.variant], BASE),
+        (gaps, DRAWN.gap_rad),
+        (elastic.LINK_BENDING.place(arm, rows), DRAWN.bend),
+        ([base for base in elastic.BASE_COMPLIANCE.place(arm, rows) if not base.variant], DRAWN.base_rad_nm),
     ]
     rest += [Part(placed, np.array([rng.uniform(0, size)])) for places, size in positive for placed in places]
     return DrawnArm(drives, bearings, tuple(rest))
@@ -110,11 +106,12 @@ def simulate_recordings(
     bases = {str(run): Base(Rotation.random(1, rng).as_matrix()[0], rng.normal(size=3)) for run in np.unique(rows.run)}
     model = FittedModel(heavy, bases, (), (*give, *drawn.rest))
     points, turns = predict(model, loaded), Rotation.from_matrix(predict_orientation(model, loaded))
-    noise = np.where(rng.random(len(rows)) < BAD_SHOTS, FAR_MM, POINT_MM)[:, None]
+    noise = np.where(rng.random(len(rows)) < DRAWN.bad_shots, DRAWN.far_mm, DRAWN.point_mm)[:, None]
     points = points + 1e-3 * noise * rng.normal(size=points.shape)
     if not rows.oriented.any():
         return replace(rows, positions=points, torque=recorded)
-    turned = Rotation.from_rotvec(1e-3 * TURN_MRAD * rng.normal(size=points.shape)) * turns * Rotation.random(1, rng)[0]
+    shaken = Rotation.from_rotvec(1e-3 * DRAWN.turn_mrad * rng.normal(size=points.shape))
+    turned = shaken * turns * Rotation.random(1, rng)[0]
     return replace(rows, positions=points, torque=recorded, orientation=turned.as_quat(scalar_first=True))
 
 
@@ -142,7 +139,7 @@ def compare_on_simulated_arms(
             drawn = draw_arm(arm, one, rng)
             first = fit_give(arm, simulate_recordings(arm, one, drawn, 1.0, rng), "one")
             second = fit_give(arm, simulate_recordings(arm, other, drawn, softer, rng), "other")
-            agree.append(compare_compliances(first, second).probability > AGREES)
+            agree.append(compare_compliances(first, second).probability > COMPLIANCE.agrees)
             for give, factor in ((first, 1.0), (second, softer)):
                 held += [
                     abs(give.mean[j - 1] - factor * drawn.drives[j - 1]) < half_width(give.stderr[j - 1])

@@ -17,6 +17,7 @@ from armscope.core.averages import rms_distance
 from armscope.core.types import unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
 from armscope.fitting.transfer import transfer as carry_over
+from armscope.real.constants import PROTOCOL
 from armscope.real.curves import turned_by_curves
 from armscope.real.protocol import ARMSCOPE
 from armscope.real.reference import ReferenceTransfer
@@ -28,7 +29,6 @@ COMPLIANCES = "compliances"
 ARMSCOPE_ELASTIC = "armscope, elastic part alone"
 GEOMETRY_HERE, WITH_CURVES = "geometric, fitted here", "geometric, fitted here, other run's curves"
 """Held out: every D-H value is fitted to training rows of the run itself, without and with curves learned elsewhere."""
-SPLITS, MOST_ROWS = (0, 1, 2), 3000
 
 
 def calibrated_transfer(arm: Arm, recordings: Recordings, transfer: ReferenceTransfer) -> dict[str, float]:
@@ -88,7 +88,8 @@ def curves_transfer(arm: Arm, learned: Diagnosis, rows: Recordings) -> dict[str,
         return {}
     found = {}
     for name, table in ((GEOMETRY_HERE, rows), (WITH_CURVES, turned)):
-        found[name] = 1e3 * held_out_levels(arm, table, ["geometric"], SPLITS, most_rows=MOST_ROWS)[0].mean
+        splits, rows_at_most = PROTOCOL.curve_splits, PROTOCOL.curve_rows
+        found[name] = 1e3 * held_out_levels(arm, table, ["geometric"], splits, most_rows=rows_at_most)[0].mean
     return found
 
 

@@ -13,10 +13,11 @@ import pandas as pd
 from armscope.core.files import write_text
 from armscope.core.markdown import table_lines
 from armscope.physics.registry import EFFECTS
+from armscope.real.constants import PROTOCOL
 from armscope.real.curves import shared
 from armscope.real.protocol import ARMSCOPE, ORIENTED, UNCORRECTED
 from armscope.real.reference import Reference, ReferenceRun, load_reference
-from armscope.real.transfer import GEOMETRY_HERE, SPLITS, WITH_CURVES
+from armscope.real.transfer import GEOMETRY_HERE, WITH_CURVES
 from armscope.report.html import significant
 from armscope.report.text.compliances import compliance_lines
 from armscope.report.text.regions import PLUS, region_lines, regions_won
@@ -268,8 +269,8 @@ def _curves(arm: RealArm, transfers: pd.DataFrame, figures: str) -> str:
         return ""
     text = (
         "Curves of joints' own angles, learned on one run and used unchanged on another beside a geometry that is "
-        f"fitted there (held out, {len(SPLITS)} splits): {'; '.join(lines)}. A curve is known only at the angles where "
-        "it was learned; beyond, it keeps its end's value."
+        f"fitted there (held out, {len(PROTOCOL.curve_splits)} splits): {'; '.join(lines)}. A curve is known only at "
+        "the angles where it was learned; beyond, it keeps its end's value."
     )
     both = shared(pd.read_csv(arm.folder / "curves_by_run.csv"))
     if both:

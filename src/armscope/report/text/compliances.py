@@ -10,9 +10,9 @@ import pandas as pd
 
 from armscope.core.markdown import table_lines
 from armscope.real.compliance_tables import half_width
-from armscope.real.compliances import PRIOR, WAVE
-from armscope.real.simulated_comparison import AGREES
+from armscope.real.constants import COMPLIANCE
 
+WAVE, PRIOR = COMPLIANCE.wave_rad, COMPLIANCE.prior_rad_nm
 INTRODUCTION = f"""\
 Do the runs say the same of how this arm gives way? Each run by itself was fitted with one and the same model: base and
 tool free, every D-H value within tolerance, low waves of every angle and axis ({1e3 * WAVE:g} mrad), and the compliance
@@ -54,14 +54,14 @@ def _told(learned: str, values: pd.DataFrame, pairs: pd.DataFrame) -> str:
         f"{row['of']} {_interval(row)} (others: {row['reference']:g})" for row in alone.to_dict("records")
     )
     mine = pairs[pairs["learned"] == learned].drop_duplicates(["one", "other"])
-    apart = mine[mine["probability"] < AGREES]
+    apart = mine[mine["probability"] < COMPLIANCE.agrees]
     verdict = f"All {len(mine)} pairs of runs agree within their intervals"
     if len(apart):
         names = "; ".join(f"{row['one']} and {row['other']}" for row in apart.to_dict("records"))
         verdict = f"{len(mine) - len(apart)} of {len(mine)} pairs of runs agree, **these do not: {names}**"
     return (
         f"*From {learned}*, in µrad/(N m): drives on {alone['run'].iloc[0]}: {joints}. What the runs determine best is "
-        f"{together}: {best}. {verdict} (at {100 * AGREES:g} %)."
+        f"{together}: {best}. {verdict} (at {100 * COMPLIANCE.agrees:g} %)."
     )
 
 
