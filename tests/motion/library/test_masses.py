@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -11,14 +13,15 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
-from armscope.motion.library.masses import as_a_body, as_it_leans, place_masses
+from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_centre, place_masses
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.timing import stretches
 from armscope.robot.dynamics import MovingArm
-from tests.motion.moving import moved, robot
+from tests.motion.moving import ROBOT, moved, robot
 from tests.seeds import seeds
 
+LINKS: list[dict[str, Any]] = ROBOT["links"]  # type: ignore[assignment]
 OFF_M = np.array([0.0, 0.12, 0.0])
 """Of link 3; its square is a fifth of what the link's inertia about its joint is."""
 
@@ -85,6 +88,37 @@ def test_a_load_off_the_flange_is_one_cause(seed: int) -> None:
 def placed_on(arm: MovingArm) -> list[PlacedCause]:
     seen = seen_in(arm, list(stretches(moved(arm, 3, runs=2))), LIBRARY.still_rad)
     return list(place_masses(seen))
+
+
+def times_as_heavy(factor: float) -> MovingArm:
+    """The arm, of a material that is so much denser."""
+    heavier = [
+        {
+            "mass_kg": factor * link["mass_kg"],
+            "com_mm": link["com_mm"],
+            "inertia_kg_m2": [factor * each for each in link["inertia_kg_m2"]],
+        }
+        for link in LINKS
+    ]
+    return robot(links=heavier)
+
+
+def test_what_competes_does_not_hang_on_how_heavy_the_arm_is() -> None:
+    """A kilogram more was too little to compete on an arm of a ton: a spring and a centre took its name."""
+    offered = [
+        {(str(each), each.variant, each.parameters) for each in placed_on(times_as_heavy(factor))}
+        for factor in (1.0, 20.0, 400.0)
+    ]
+    links = [{each for each in these if "link" in each[0]} for these in offered]
+    assert links[0] <= links[1] == links[2]
+    assert {variant for name, variant, _ in links[2] if name == "link mass at link 2"} == {"", catalogue.AT_ITS_CENTRE}
+
+
+def test_a_mass_at_the_centre_leaves_the_inertia_about_it() -> None:
+    body = pin.Inertia.FromDynamicParameters(robot().inertial[10:20])
+    heavier = pin.Inertia(body.mass + 0.7, body.lever, body.inertia).toDynamicParameters()
+    added = 0.7 * at_its_centre(robot().inertial[10:20])
+    np.testing.assert_allclose(robot().inertial[10:20] + added, heavier, atol=1e-12)
 
 
 def test_a_gravity_that_leans_keeps_its_size() -> None:

@@ -137,6 +137,18 @@ def mass(cure: str) -> Cured:
     return heavier(*told(cure, "stated ")), as_it_is, as_it_is
 
 
+def heavier_alone(by: float) -> Spec:
+    def change(spec: Spec) -> None:
+        spec["links"][1]["mass_kg"] += by
+
+    return edited(change)
+
+
+def mass_alone(cure: str) -> Cured:
+    assert "mass alone" in cure
+    return heavier_alone(*told(cure, "stated ")), as_it_is, as_it_is
+
+
 def centred(link: int, at: list[float]) -> Spec:
     return edited(lambda spec: spec["links"][link].update(com_mm=at))
 
@@ -184,6 +196,7 @@ CASES = {
     "gain": Case("motor_constant", AT, lambda cure: (STATED, as_it_is, times(*told(cure, "by "))), None, times(0.88)),
     "delay": Case("torque_delay", AT, shifted, None, later(0.02), LONG),  # known to milliseconds by much data alone
     "mass": Case("link_mass", "link 2", mass, heavier(-1.2)),
+    "mass alone": Case("link_mass", "link 2", mass_alone, heavier_alone(1.5)),
     "centre": Case("link_first_moment", "link 2", centre(1), centred(1, [-130, 60, 70])),
     "centre of the last": Case("link_first_moment", "link 3", centre(2), centred(2, [-90, -70, 50])),
     "inertia": Case("link_inertia", "link 2", inertia, turning(0.4)),

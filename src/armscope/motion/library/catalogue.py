@@ -174,6 +174,8 @@ CABLE = Cause(
     clause=clauses.at_place("cables or hoses pull at {}"),
     remedy=remedies_of_curves.by_its_points,
 )
+AT_ITS_CENTRE = "at its centre"
+"""Form of a link's mass that is off while its inertia about its centre of mass is as stated."""
 LINK_MASS = Cause(
     "link_mass",
     MASSES,
@@ -183,6 +185,7 @@ LINK_MASS = Cause(
     in_bodies=True,
     clause=clauses.than_stated("{} is", "heavier", "lighter"),
     remedy=remedies.add_to_stated,
+    cures={AT_ITS_CENTRE: "Correct the link's mass alone, its inertia about its centre of mass is as stated."},
 )
 LINK_CENTRE = Cause(
     "link_first_moment",

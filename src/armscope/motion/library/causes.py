@@ -37,6 +37,7 @@ class Cause:
         labels: its parameters' names on a card, where their own don't say it.
         clause: what a headline says of it; its title and size where not given.
         remedy: its cure with the numbers found; the cure as it stands where not given.
+        cures: of its forms (`PlacedCause.variant`) that are put right in another way.
         open_clause, open_cure: both where its number is not determined.
         confirm_common: how it is confirmed where all joints have it in common; as elsewhere where not given.
     """
@@ -51,6 +52,7 @@ class Cause:
     labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     clause: Clause | None = field(default=None, repr=False, compare=False)
     remedy: Remedy | None = field(default=None, repr=False, compare=False)
+    cures: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     open_clause: Clause | None = field(default=None, repr=False, compare=False)
     open_cure: str = field(default="", repr=False, compare=False)
     confirm_common: str = field(default="", repr=False, compare=False)

@@ -85,7 +85,7 @@ class TorqueLayout:
         heavier = [
             (int(columns[0]), self.arm.inertial[int(cause.inertial[:, 0].argmax()) // 10 * 10])
             for cause, columns in zip(self.placed, self.columns, strict=True)
-            if cause.cause is LINK_MASS and cause.inertial is not None and not unsure
+            if cause.cause is LINK_MASS and not cause.variant and cause.inertial is not None and not unsure
         ]
         return np.array([column for column, _ in heavier], dtype=np.intp), np.array([kg for _, kg in heavier])
 

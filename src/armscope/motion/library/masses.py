@@ -27,6 +27,11 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
             heavier = np.zeros((len(arm.inertial), 1))
             heavier[own, 0] = arm.inertial[own] / mass
             yield from _inertial(seen, catalogue.LINK_MASS, place, (("mass", "kg"),), heavier)
+            alone = np.zeros_like(heavier)
+            alone[own, 0] = at_its_centre(arm.inertial[own])
+            if _says_more(seen, alone, heavier):
+                form: dict[str, Any] = {"variant": catalogue.AT_ITS_CENTRE}
+                yield from _inertial(seen, catalogue.LINK_MASS, place, (("mass", "kg"),), alone, **form)
         if arm.n_links > 1:
             first, second = identity[:, own] @ moved_centre(arm.inertial[own]), identity[:, 10 * link + 4 : own.stop]
             moments = tuple((f"m{axis}", "kg m") for axis in "xyz")
@@ -39,6 +44,15 @@ def place_masses(seen: Seen) -> Iterator[PlacedCause]:
     if arm.n_links > 1:
         yield from _payloads(seen, of_a_load(arm, arm.point_load()[-10:-6]))
         yield from _gravity(seen, tuple(range(arm.n_motors)))
+
+
+def at_its_centre(inertial: Array) -> Array:
+    """(10,) per kg, of a body (10,) that is heavier at its centre of mass and has the inertia about it that is stated.
+
+    Who corrects a mass alone, or mounts something small there, changes no more.
+    """
+    centre = inertial[1:4] / inertial[0]
+    return np.concatenate([[1.0], centre, moved_centre(inertial)[4:] @ centre / 2])
 
 
 def at_its_place(placed: PlacedCause, arm: MovingArm, values: Array) -> PlacedCause:
@@ -99,7 +113,11 @@ def shown(seen: Seen, inertial: Array) -> Indices:
     """
     torque = seen.regressor @ inertial
     size = np.sqrt(np.mean(torque**2, axis=0))
-    at_all = np.flatnonzero(size > LIBRARY.least_shown * np.sqrt(np.mean((seen.regressor @ seen.arm.inertial) ** 2)))
+    weighs = (inertial != 0).reshape(-1, 10, inertial.shape[1]).any(axis=1).T @ seen.arm.inertial[::10]
+    usual = np.maximum(LIBRARY.heavy_link * weighs, 1.0)
+    at_all = np.flatnonzero(
+        usual * size > LIBRARY.least_shown * np.sqrt(np.mean((seen.regressor @ seen.arm.inertial) ** 2))
+    )
     if not len(at_all):
         return at_all
     _, R, order = scipy.linalg.qr(torque[:, at_all] / size[at_all], mode="economic", pivoting=True)

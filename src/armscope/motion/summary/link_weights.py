@@ -70,7 +70,7 @@ def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
     named = []
     for number, (placed, columns) in enumerate(zip(layout.placed, layout.columns, strict=True)):
         of_link = placed.cause is catalogue.LINK_MASS and number not in best.candidates
-        if not of_link or not search.in_background(best, number):
+        if not of_link or placed.variant or not search.in_background(best, number):
             continue
         worth = search.log_odds(best, number) >= PRIORS.sure_nats
         if worth and odds_of_weight(selected, number) >= INDISTINGUISHABLE_NATS:

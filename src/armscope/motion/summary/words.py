@@ -46,7 +46,7 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
     Returns:
         A sentence or two; the cause's own words where its numbers are not determined.
     """
-    say, own = placed.cause.remedy, placed.cause.cure
+    say, own = placed.cause.remedy, placed.cause.cures.get(placed.variant, placed.cause.cure)
     of_law = placed.columns.numbers if isinstance(placed.columns, Law) else ()
     sure = say if determined(parameters) else None
     unsure = "" if determined(parameters) else placed.cause.open_cure
