@@ -10,10 +10,11 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.summary.by_run import friction_by_run
 from armscope.motion.summary.differing_runs import differing_runs
 from armscope.motion.summary.lasting import LastingTorque, lasting_torques, left_by_friction
+from armscope.motion.summary.wandering import wandering_torques
 
 
 def left_over(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
-    """What repeats on other motion, and what differs from run to run; first where most of a joint's torque is such.
+    """What repeats on other motion, differs from run to run, or lasts; first where most of a joint's torque is such.
 
     Args:
         selected: the selection.
@@ -25,6 +26,8 @@ def left_over(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
     for each in (*lasting_torques(selected), *friction_by_run(selected), *differing_runs(selected)):
         if each.joint not in of_joint or each.rms > of_joint[each.joint].rms:
             of_joint[each.joint] = each
+    for each in wandering_torques(selected):  # what repeats, or differs by runs, says more
+        of_joint.setdefault(each.joint, each)
     return tuple(sorted(of_joint.values(), key=lambda each: -each.of_torque))
 
 
