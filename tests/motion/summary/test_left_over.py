@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -26,7 +26,10 @@ def test_the_joint_most_of_whose_torque_lasts_comes_first(monkeypatch: pytest.Mo
     monkeypatch.setattr(module, "lasting_torques", lambda selected: (own, other))
     monkeypatch.setattr(module, "friction_by_run", lambda selected: ())
     monkeypatch.setattr(module, "differing_runs", lambda selected: (again,))
-    assert module.left_over(cast(SelectedCauses, Nothing())) == (other, own)
+    # what follows nothing says less than what repeats, or differs by runs
+    alone = LastingTorque(0, "time", 0.1, 0.01, 0.4)
+    monkeypatch.setattr(module, "wandering_torques", lambda selected: (replace(own, driver="time", rms=2.0), alone))
+    assert module.left_over(cast(SelectedCauses, Nothing())) == (other, own, alone)
 
 
 def test_its_shares_are_of_what_friction_leaves_of_all_joints_as_rows_count(monkeypatch: pytest.MonkeyPatch) -> None:
