@@ -263,7 +263,28 @@ class Leading(Constants):
     )
 
 
+@dataclass(frozen=True)
+class Settling(Constants):
+    """When rows are told in which the arm had not come to rest."""
+
+    rows: int = constant(600, "that are looked at", "judgement: what most rows show needs few; time", unit="rows")
+    moves_rad: float = constant(0.02, "between rows (RMS), from which a joint moves", "judgement: a degree", unit="rad")
+    standard_errors: float = constant(
+        8.0, "of a share that is told", "judgement: what a plain arm does not have is in them, too"
+    )
+    nats: float = constant(
+        20.0,
+        "by which what is left follows the motion rather than its side",
+        "judgement: play of a joint that was not recorded has the side",
+        unit="nats",
+    )
+    most: float = constant(
+        0.5, "of what a plain arm leaves (mean square), below which it is no hint", "judgement: most of it"
+    )
+
+
 TRIALS = TrialRules()
+SETTLING = Settling()
 LEADING = Leading()
 OTHER_ARMS = OtherArms()
 TABLE = TableRules()

@@ -8,8 +8,8 @@ import numpy as np
 
 from armscope.calibration.model import set_up
 from armscope.calibration.state import State
-from armscope.check.approach import drive_columns
 from armscope.check.constants import WRONG_GRAVITY
+from armscope.check.plain_errors import drive_columns
 from armscope.check.suspicion import GRAVITY, Suspicion
 from armscope.core.types import Array
 from armscope.recordings import Recordings

@@ -14,7 +14,10 @@ GRAVITY = "gravity"
 APPROACH = "approach"
 """Kind of a suspicion about the sign of a column of the side of approach."""
 
-BESIDE = (GRAVITY, APPROACH)
+SETTLED = "settling"
+"""Kind of a suspicion that angles and points were not taken at one moment."""
+
+BESIDE = (GRAVITY, APPROACH, SETTLED)
 """Kinds of hints that stand above a diagnosis, which is made all the same."""
 
 TOO_SHORT = "too short"

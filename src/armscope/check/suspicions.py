@@ -21,6 +21,7 @@ from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
 from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
+from armscope.check.settling import not_at_rest
 from armscope.check.suspicion import Suspicion
 from armscope.check.targets import named_row_by_row
 from armscope.core.averages import rms_distance
@@ -82,7 +83,11 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
     else:
         found += _doubtful(arm, recordings, misfit) if share > TRIALS.doubtful else []
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
-        found += leading_joints(arm, some, state) + rows_far_off(arm, recordings, _placed_by_most)
+        found += (
+            leading_joints(arm, some, state)
+            + not_at_rest(arm, recordings, state)
+            + rows_far_off(arm, recordings, _placed_by_most)
+        )
         found += payload_at_the_flange(arm, recordings, state)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 

@@ -34,9 +34,7 @@ class LibraryRules(Constants):
         "of the arm's own torque that a change by one unit must show for its column to compete",
         "judgement: what shows less can't be told",
     )
-    heavy_link: float = constant(
-        0.1, "of a link's mass, in the place of one kg (m, m2) where it is more", "judgement: as far as weights are off"
-    )
+    heavy_link: float = constant(0.1, "of a link's mass, where more than a kg", "judgement: weights are so far off")
     redundant_columns: float = constant(
         0.02, "of a column, beyond the others of its cause, that must be its own", "judgement: less can't be told apart"
     )

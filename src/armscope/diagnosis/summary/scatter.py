@@ -15,6 +15,7 @@ from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.physics.transmission import BACKLASH
 from armscope.recordings import Recordings
+from armscope.recordings.motion import last_moves
 from armscope.verdict.effects import FoundEffect, Parameter
 
 NOTHING = "nothing in the table"
@@ -106,13 +107,7 @@ def sides_by_order(recordings: Recordings, motor: int) -> Array:
     Returns:
         (N,) sign of the motor's motion from the row before in the same run; 0 for the first of a run.
     """
-    clock = recordings.number if recordings.time is None else recordings.time
-    order = np.lexsort((clock, recordings.run))
-    motion = np.diff(recordings.motor_angles[order, motor - 1], prepend=np.nan)
-    first = np.concatenate([[True], recordings.run[order][1:] != recordings.run[order][:-1]])
-    sides = np.zeros(len(recordings))
-    sides[order] = np.where(first, 0.0, np.sign(motion))
-    return sides
+    return np.sign(np.nan_to_num(last_moves(recordings)[:, motor - 1]))
 
 
 def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]:
