@@ -84,7 +84,7 @@ def test_bases_and_tools_that_are_shared_are_found_from_either_start(far: bool) 
     tools = np.zeros((2, 3))
     start = poses.start_of_far_tools(tools, 2) if far else poses.start(tools, 2)
     assert start is not None
-    found = place_frames(poses, start, 40, lambda left: np.ones(len(left)))
+    found = place_frames(poses, start, 40, lambda left: np.ones(len(left)), start.tools)
     assert found.reason == "the step became negligible"
     np.testing.assert_allclose(found.state.tools, true.tools, atol=1e-8)
     np.testing.assert_allclose(found.state.rotations, true.rotations, atol=1e-8)
@@ -94,6 +94,6 @@ def test_a_wrist_that_never_turns_leaves_the_tool_where_it_was() -> None:
     poses, _ = drawn(np.random.default_rng(3), 40)
     held = FlangePoses(poses.origin, np.tile(np.eye(3), (40, 1, 1)), poses.origin + 1.0, poses.base * 0, poses.tool * 0)
     tools = np.array([[0.1, 0.2, 0.3]])
-    found = place_frames(held, held.start(tools, 1), 40, lambda left: np.ones(len(left)))
+    found = place_frames(held, held.start(tools, 1), 40, lambda left: np.ones(len(left)), tools)
     np.testing.assert_allclose(found.state.tools, tools, atol=1e-6)
     assert np.abs(found.residual).max() < 1e-8

@@ -136,7 +136,7 @@ def placed(set_up: SetUp, most_steps: int = FITTING.steps) -> State:
     tools = np.tile(set_up.arm.tool, (n_tools, 1))
     # the second start fails where the poses hardly turn, the first where the tool is far from nominal
     starts = [start for start in (poses.start(tools, n_bases), poses.start_of_far_tools(tools, n_bases)) if start]
-    tried = [place_frames(poses, start, most_steps, all_alike) for start in starts]
+    tried = [place_frames(poses, start, most_steps, all_alike, tools) for start in starts]
     found = min(tried, key=lambda each: float(np.sum(each.residual**2))).state
     state = State(
         found.rotations,

@@ -186,7 +186,8 @@ def _register_frames(arm: Arm, recordings: Recordings) -> tuple[Arm, Base]:
     frames, one = chain(arm, recordings.motor_angles), np.zeros(len(recordings), dtype=np.intp)
     flange = frames.tool - frames.tool_rotation @ arm.tool
     poses = FlangePoses(flange, frames.tool_rotation, recordings.positions, base=one, tool=one)
-    placed = place_frames(poses, poses.start(arm.tool[None], 1), STEPS.registration, all_alike).state
+    stated = arm.tool[None]
+    placed = place_frames(poses, poses.start(stated, 1), STEPS.registration, all_alike, stated).state
     description = arm.description.model_copy(update={"tool_mm": tuple((placed.tools[0] * 1e3).tolist())})
     return build_arm(description), Base(placed.rotations[0], placed.translations[0])
 

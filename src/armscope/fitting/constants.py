@@ -107,6 +107,30 @@ class SetUpRules(Constants):
 
 
 @dataclass(frozen=True)
+class GaugeRules(Constants):
+    """Where a tool point stays as stated, since rows do not tell it from the base."""
+
+    stated_tool_mm: float = constant(
+        1.0,
+        "standard error of a tool point, the arm being as it is, from which rows do not tell it from the base",
+        "judgement: who measures a tool point and types it in is off by about as much",
+        unit="mm",
+    )
+    refuted: float = constant(
+        4.0,
+        "by which rows must contradict a stated tool point, for it to be fitted all the same",
+        "convention: one in 16,000 by chance",
+        unit="standard errors",
+    )
+    least_noise_mm: float = constant(
+        1e-3, "that is ever believed there", "derived: recordings state their points to a micrometre", unit="mm"
+    )
+    share: float = constant(
+        0.1, "of what moves most along an axis, from which another axis is named beside it", "judgement: less is a lean"
+    )
+
+
+@dataclass(frozen=True)
 class DiscrepancyRules(Constants):
     """How smooth errors that nobody named are looked for."""
 
@@ -173,5 +197,6 @@ class ScatterRules(Constants):
 STEPS = FittingSteps()
 EXCHANGE = ExchangeRules()
 SET_UPS = SetUpRules()
+GAUGE = GaugeRules()
 DISCREPANCY = DiscrepancyRules()
 SCATTER = ScatterRules()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,9 @@ from armscope.core.rotations import cross_matrices, turned_by
 from armscope.core.sampling import in_one_stretch
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
+from armscope.fitting.gauge import columns_of_frames, gauge
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
+from armscope.measurement import robust
 
 
 def rigid_motion(points: Array, measured: Array) -> tuple[Array, Array]:
@@ -166,7 +168,7 @@ class _Placement(NonlinearProblem[Frames, Array]):
     """Bases and tools of a rigid arm; residuals (N, 3) m in the axes of each row's base."""
 
     least_damping = 1e-9
-    """A held wrist leaves the tool's offset to the base: it then stays at its start."""
+    """A held wrist leaves the tool's offset to the base: one step then takes it no farther than it must."""
 
     def __init__(self, poses: FlangePoses, weigh: Callable[[Array], Array]) -> None:
         self.poses, self.weigh = poses, weigh
@@ -231,17 +233,29 @@ def all_alike(residual: Array) -> Array:
 
 
 def place_frames(
-    poses: FlangePoses, start: Frames, most_steps: int, weigh: Callable[[Array], Array]
+    poses: FlangePoses, start: Frames, most_steps: int, weigh: Callable[[Array], Array], stated: Array
 ) -> FitResult[Frames, Array]:
     """Bases and tools together, refined from a start; rows weighed by what is left of them (N, 3), m.
+
+    Where rows do not tell a tool from the base it stays as stated, wherever the start took it.
 
     Args:
         poses: the last frame in N rows, and what was measured.
         start: bases and tools to start from.
         most_steps: after so many steps the fit stops where it is.
         weigh: (N, 3) m to (N,) weights.
+        stated: (K, 3) the tools as stated, m.
 
     Returns:
         Bases and tools, and what is left, m.
     """
-    return gauss_newton(_Placement(poses, weigh), start, most_steps)
+    problem = _Placement(poses, weigh)
+    found = gauss_newton(problem, start, most_steps)
+    information = 1e6 * problem.quadratic(found.state, found.residual).matrix
+    noise_mm = 1e3 * robust.scale_of(found.residual) if len(found.residual) else 0.0
+    at = columns_of_frames(len(start.rotations), len(start.tools))
+    held = gauge(information, information, at, (found.state.tools - stated).reshape(-1), noise_mm)
+    if held is None:
+        return found
+    state = found.state.moved(held.step)
+    return replace(found, state=state, residual=problem.residual(state))

@@ -9,6 +9,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
+from armscope.fitting.gauge import covariance_of_others, frame_terms, gauge
 from armscope.fitting.gauss_newton import SETTLED, gauss_newton
 from armscope.fitting.linearisation import Measured, residuals
 from armscope.fitting.model_fit import ModelFit
@@ -103,28 +104,57 @@ def refit(
         some = SummedFit(parts, rows, rows.weigher(row_noise, least_noise, whitening), prior, least_noise)
         found = gauss_newton(some, start, STEPS.refit)
         if rows.on_the_way:
-            return _ended(some, found.state, found.residual, some.weights)
+            return _ended(some, found.state, found.residual, some.weights, some.table)
         left = residuals(found.state, rows.table)
         if found.reason == SETTLED and some.holds_for(left, found.residual):
-            return _ended(some, found.state, left, weigh(left))
+            return _ended(some, found.state, left, weigh(left), rows.table)
     table = rows.table if isinstance(rows, SummedRows) else rows
     problem = ModelFit(parts, table, weigh, prior, least_noise, STEPS.converged_share)
     found = gauss_newton(problem, start, STEPS.refit)
-    return _ended(problem, found.state, found.residual, problem.weights)
+    return _ended(problem, found.state, found.residual, problem.weights, problem.table)
 
 
-def _ended(problem: ModelFit, model: FittedModel, left: ChannelResiduals, weights: RowWeights) -> Refit:
+def _ended(
+    problem: ModelFit, model: FittedModel, left: ChannelResiduals, weights: RowWeights, table: Measured
+) -> Refit:
     """What a fit ended in; a lucky residual does not make the instrument better than it is known to be."""
-    return Refit(
-        model,
+    noise = max(problem.noise, problem.least_noise)
+    found = Refit(
+        replace(model, undetermined=()),
         problem.parts,
         problem.equations,
         problem.precision,
-        max(problem.noise, problem.least_noise) ** 2 * problem.solved.inverse,
+        noise**2 * problem.solved.inverse,
         problem.noise,
         problem.effective_dof,
         weights,
         left,
+    )
+    return _with_tools_as_stated(problem, found, noise, table)
+
+
+def _with_tools_as_stated(problem: ModelFit, found: Refit, noise: float, table: Measured) -> Refit:
+    """A fit with tool points as stated where its rows do not tell them from the base, which then takes what they had.
+
+    What the fit's steps held frames by where they stood is no reason for a tool to stay away from where it is stated.
+    """
+    at = frame_terms(problem.parts.terms, problem.parts.frames)
+    if not len(at.tools):
+        return found
+    known = {term: value for part in found.model.tools for term, value in zip(part.placed.terms, part.values)}
+    deviation = np.array([known[problem.parts.terms[column]] for column in at.tools])
+    precision = found.precision.copy()
+    precision[at.tools] = 0.0
+    matrix = problem.equations.G + noise**2 * np.diag(precision)
+    held = gauge(matrix, problem.equations.G, at, deviation, noise)
+    if held is None:
+        return found
+    model = replace(problem.moved(found.model, held.step), undetermined=held.told)
+    return replace(
+        found,
+        model=model,
+        covariance=noise**2 * covariance_of_others(problem.solved.matrix, at.tools, held.directions),
+        channel_residuals=residuals(model, table),
     )
 
 

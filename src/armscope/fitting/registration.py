@@ -40,7 +40,8 @@ def fit_frames(arm: Arm, recordings: Recordings, tool_per_run: bool = False, set
     stands, base_of_run = np.unique([first_of.get(str(run), str(run)) for run in runs], return_inverse=True)
     which_base = base_of_run[which_run]
     poses = FlangePoses(tool, tool_rotation, recordings.positions, which_base, which_tool)
-    found = place_frames(poses, poses.start(np.zeros((len(keys), 3)), len(stands)), STEPS.registration, _weights).state
+    stated = np.zeros((len(keys), 3))
+    found = place_frames(poses, poses.start(stated, len(stands)), STEPS.registration, _weights, stated).state
     bases = [Base(*each) for each in zip(found.rotations, found.translations, strict=True)]
     return FittedModel(
         arm,

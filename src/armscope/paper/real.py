@@ -90,8 +90,8 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
         np.zeros_like(chosen),
         target[chosen],
     )
-    start = poses.start(np.tile(arm.tool, (len(targets), 1)), 1)
-    placed = place_frames(poses, start, STEPS.registration, all_alike).state
+    stated = np.tile(arm.tool, (len(targets), 1))
+    placed = place_frames(poses, poses.start(stated, 1), STEPS.registration, all_alike, stated).state
     rotation, position, tools = placed.rotations[0], placed.translations[0], placed.tools
     nominal = origins + np.einsum("nij,nj->ni", frames.tool_rotation, tools[target])
     measured = (recordings.positions - position) @ rotation

@@ -31,6 +31,18 @@ class Base:
     translation: Array
 
 
+@dataclass(frozen=True)
+class AsStated:
+    """A tool point along axes ("tool z") that rows did not tell from the base along its own ("base z")."""
+
+    tool: str
+    base: str
+
+    def text(self) -> str:
+        """In words, as a calibration tells what it held."""
+        return f"{self.tool}: as {self.base}; kept as stated"
+
+
 @dataclass(frozen=True, eq=False)
 class FittedModel:
     """An arm with everything that was found about it.
@@ -42,6 +54,7 @@ class FittedModel:
         parts: the effects, SI units.
         background: the small errors of each family that are allowed for everywhere without a name, as parts.
         tool_turns: (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured.
+        undetermined: tool points that are as stated, since rows do not tell them from the base.
     """
 
     arm: Arm
@@ -50,6 +63,7 @@ class FittedModel:
     parts: tuple[Part, ...] = ()
     background: tuple[Part, ...] = ()
     tool_turns: Mapping[ToolKey, Array] = field(default_factory=dict)
+    undetermined: tuple[AsStated, ...] = ()
 
     def moves_like(self, other: FittedModel) -> bool:
         """Whether another model surely predicts the same: its frames are these, and its effects but for zeros."""

@@ -127,6 +127,18 @@ class ToolTurnFile(Strict):
     rotation: Rotation
 
 
+class AsStatedFile(Strict):
+    """A tool point that is as stated, since the recordings do not tell it from the base.
+
+    Attributes:
+        tool: along which of its axes.
+        base: along which axes the base takes what the tool would have.
+    """
+
+    tool: Word
+    base: Word
+
+
 class ModelFile(Strict):
     """The content of model.yaml; the attributes of `armscope.physics.model.FittedModel`.
 
@@ -136,6 +148,7 @@ class ModelFile(Strict):
         bases: the measurement frame by run.
         tools: tool points by target, as offsets of the stated one.
         tool_turns: how measured tool frames are turned, where orientations were measured.
+        undetermined: tool points that are as stated, since the recordings do not tell them from the base.
         effects: what was found.
         background: small errors everywhere, which have no name.
     """
@@ -145,5 +158,6 @@ class ModelFile(Strict):
     bases: dict[Name, BaseFile]
     tools: tuple[PartFile, ...]
     tool_turns: tuple[ToolTurnFile, ...] = ()
+    undetermined: tuple[AsStatedFile, ...] = ()
     effects: tuple[PartFile, ...]
     background: tuple[PartFile, ...]

@@ -10,9 +10,9 @@ import numpy as np
 from armscope.core.files import write_yaml
 from armscope.core.inputs import InputError, format_of, read_yaml, validate
 from armscope.physics.effect import Driver, Part
-from armscope.physics.model import Base, FittedModel
+from armscope.physics.model import AsStated, Base, FittedModel
 from armscope.physics.model_check import Reader
-from armscope.physics.model_contents import FORMAT, BaseFile, ModelFile, PartFile, ScannedFile, TermFile, ToolTurnFile
+from armscope.physics.model_contents import FORMAT, AsStatedFile, BaseFile, ModelFile, PartFile, ScannedFile, TermFile, ToolTurnFile
 from armscope.robot.arm import build_arm
 
 
@@ -35,6 +35,7 @@ def save_model(path: Path | str, model: FittedModel) -> None:
             ToolTurnFile(target=target, run=run, rotation=turn.tolist())
             for (target, run), turn in model.tool_turns.items()
         ),
+        undetermined=tuple(AsStatedFile(tool=each.tool, base=each.base) for each in model.undetermined),
         effects=tuple(_part_out(part) for part in model.parts),
         background=tuple(_part_out(part) for part in model.background),
     )
@@ -64,6 +65,7 @@ def load_model(path: Path | str) -> FittedModel:
         parts=reader.parts(file.effects, "effects"),
         background=reader.parts(file.background, "background"),
         tool_turns={(turn.target, turn.run): np.array(turn.rotation) for turn in file.tool_turns},
+        undetermined=tuple(AsStated(each.tool, each.base) for each in file.undetermined),
     )
 
 
