@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from armscope.calibration.constants import IDENTIFYING
 from armscope.core.types import Array
 
+TOOL_POINT = ("tool x", "tool y", "tool z")
+
 
 @dataclass(frozen=True)
 class Confounded:
@@ -33,7 +35,10 @@ class Confounded:
         told = self.partners
         if len(told) > IDENTIFYING.told_singly:
             told = tuple(dict.fromkeys(partner.rpartition(" ")[0] for partner in told))
-        return f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > IDENTIFYING.alike else "")
+        stated = "; kept as stated" if kind_of(self.name) in TOOL_POINT else ""
+        return (
+            f"{self.name}: as {' with '.join(told)}" + (" and more" if self.left > IDENTIFYING.alike else "") + stated
+        )
 
 
 def confounded_parameters(

@@ -81,11 +81,12 @@ def frames_content(calibration: Calibration) -> dict[str, Any]:
     content: dict[str, Any] = {
         "rms_distance_mm": calibration.rms_distance * 1e3,
         "base_frames": [
-            {"run": name, "position_mm": position, "quaternion_wxyz": quaternion} | _not_told(calibration, name)
+            {"run": name, "position_mm": position, "quaternion_wxyz": quaternion} | _not_told(calibration, "base", name)
             for name, position, quaternion in zip(rows.base_names, state.translations * 1e3, quaternions, strict=True)
         ],
         "tools": [
-            {"target": name, "tool_mm": tool} for name, tool in zip(rows.tool_names, state.tools * 1e3, strict=True)
+            {"target": name, "tool_mm": tool} | _not_told(calibration, "tool", name)
+            for name, tool in zip(rows.tool_names, state.tools * 1e3, strict=True)
         ],
     }
     if state.compliances.any():
@@ -96,9 +97,9 @@ def frames_content(calibration: Calibration) -> dict[str, Any]:
     return content
 
 
-def _not_told(calibration: Calibration, run: str) -> dict[str, list[str]]:
-    """Which of a base frame's numbers the rows do not tell, as in a run of one pose; nothing where they tell all."""
-    start = f"base of {run} " if run else "base "
+def _not_told(calibration: Calibration, frame: str, name: str) -> dict[str, list[str]]:
+    """Which of a base's or tool's numbers rows do not tell, as in a run of one pose; nothing where they tell all."""
+    start = f"{frame} of {name} " if name else f"{frame} "
     axes = [each.name.removeprefix(start) for each in calibration.held if each.name.startswith(start)]
     return {"not_identified": [axis for axis in axes if " " not in axis]} if axes else {}
 

@@ -80,11 +80,12 @@ class SetUp:
     def tiers(self) -> Indices:
         """Order of preference where parameters imitate each other.
 
-        Frames, compliances, joint zeros, the rest of the arm, turns about y: what a user can act upon comes first.
+        Bases, tools, compliances, joint zeros, the rest of the arm, turns about y: what a user can act upon comes
+        first, and a tool point is stated where a base is not.
         """
-        n_frames = 6 * len(self.base_names) + 3 * len(self.tool_names)
+        frames = [-1] * 6 * len(self.base_names) + [0] * 3 * len(self.tool_names)
         arm = [2 if constant.is_zero_offset else 4 if constant.kind == "beta" else 3 for constant in self.constants]
-        return np.array([0] * n_frames + arm + [1] * self.arm.n_motors + [0] * 3 * len(self.tool_names))
+        return np.array(frames + arm + [1] * self.arm.n_motors + [0] * 3 * len(self.tool_names))
 
     def free(self, level: Level) -> NDArray[np.bool_]:
         """Which parameters a level lets free, identifiable or not."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import NDArray
 
 from armscope.calibration.constants import FITTING, SIZES
@@ -14,6 +15,7 @@ from armscope.calibration.identifiability import identifiable
 from armscope.calibration.model import Level, SetUp
 from armscope.calibration.state import State
 from armscope.core.types import Array
+from armscope.fitting.gauge import FrameColumns, gauge
 from armscope.measurement.robust import scale_of
 
 Redundancy = Literal["fixed", "priors"]
@@ -66,7 +68,35 @@ def solve(
         free, stiffness = _freedom(rows, start, level, redundancy, priors)
         fitted = solver(rows, start, free, stiffness)
         start = fitted.state
+    held = _tools_as_stated(rows, fitted, free, stiffness)
+    if held is not None:
+        start, free = held
+        fitted = solver(rows, start, free, stiffness)
     return Solved(rows, fitted, free, stiffness)
+
+
+def _tools_as_stated(
+    rows: SetUp, fitted: Fitted, free: NDArray[np.bool_], stiffness: Array
+) -> tuple[State, NDArray[np.bool_]] | None:
+    """Where to fit again from, and what is free, if tool points are as stated that rows do not tell from the base."""
+    _, jacobian = rows.linearised(fitted.state, free)
+    weighted = jacobian * np.repeat(fitted.weights, len(jacobian) // len(rows))[:, None]
+    information = 1e6 * weighted.T @ jacobian
+    columns, n_bases, n_tools = np.flatnonzero(free), 6 * len(rows.base_names), 3 * len(rows.tool_names)
+    tools = (columns >= n_bases) & (columns < n_bases + n_tools)
+    if not tools.any():
+        return None
+    deviation = (fitted.state.tools - rows.arm.tool).reshape(-1)[columns[tools] - n_bases]
+    at = FrameColumns(np.flatnonzero(columns < n_bases + n_tools), np.flatnonzero(tools))
+    noise_mm = 1e3 * scale_of(rows.residuals(fitted.state))
+    found = gauge(information + 1e6 * np.diag(stiffness[free]), information, at, deviation, noise_mm)
+    if found is None:
+        return None
+    step, left = np.zeros(len(free)), free.copy()
+    step[columns] = found.step
+    held = scipy.linalg.qr(found.directions.T, mode="r", pivoting=True)[1][: found.directions.shape[1]]
+    left[columns[at.tools[held]]] = False
+    return fitted.state.moved(step), left
 
 
 def _weighed(rows: SetUp, state: State) -> SetUp:

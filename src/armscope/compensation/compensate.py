@@ -61,22 +61,17 @@ def compensate_black_box(model: ErrorModel, path: WantedPath, options: Options |
         turn=np.tile(rotation, (len(path), 1, 1)),
     )
     result = task.run(np.full(len(path), "", dtype=object))
-    result = replace(result, notes=(*result.notes, *_left(model, result)))
+    result = replace(result, notes=(*result.notes, *_left(model)))
     if options.pose and model.turning is None:
         note = "the model was fitted to positions only: orientations are kept as the nominal arm has them"
         return replace(result, notes=(*result.notes, note))
     return result
 
 
-def _left(model: ErrorModel, result: Compensated) -> tuple[str, ...]:
+def _left(model: ErrorModel) -> tuple[str, ...]:
     """What the model's own rows say of its corrections: the predicted rest is what it thinks of itself."""
     left = f"{model.left_mm:.3g} mm RMS of the distance"
-    told = f"a correction leaves at least what the model leaves of the rows that it was fitted to: {left}"
-    missed = result.uncorrected[result.reached]
-    size = float(np.sqrt(np.mean(missed**2))) * 1e3 if len(missed) else np.inf
-    if model.left_mm >= size:
-        told += f"; that is no less than the {size:.3g} mm that are corrected, so the arm gets no better"
-    return (told,)
+    return (f"corrected, the arm will miss about what the model leaves of the rows that it was fitted to: {left}",)
 
 
 def compensate_physical(
@@ -104,12 +99,13 @@ def compensate_physical(
     if identified.arm != model.arm.name:
         rule = f"the model is of {model.arm.name!r}"
         raise InputError("domain", "robot", identified.arm, rule, "These files do not belong together.")
+    measured = options.frame == "measurement"
+    model = model if measured else model.in_its_own_base()
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         refuse(refused, missing, f"no {column}, which the model follows")
     refuse(refused, beyond_time(model, identified, rows), "outside the identified range: time_s, which a drift follows")
     rows = with_empty_context(rows)
-    measured = options.frame == "measurement"
 
     def forward(nominal: Array) -> tuple[Forward, str]:
         with_load, note = with_torques(model, identified, rows, nominal)
@@ -128,7 +124,24 @@ def compensate_physical(
         turn=model.base_turns(rows.run) if measured else np.broadcast_to(np.eye(3), (len(rows), 3, 3)),
     )
     result = task.run(refused)
-    return replace(result, notes=(*notes, *result.notes, *_foretold(identified)))
+    said = (*notes, *result.notes, *_resting_on_the_tool(model, options), *_foretold(identified))
+    return replace(result, notes=said, turn_open=options.pose)
+
+
+def _resting_on_the_tool(model: FittedModel, options: Options) -> tuple[str, ...]:
+    """What the recordings do not tell of the tool, and commands rest on."""
+    notes = [
+        f"these poses do not tell {each.tool} from {each.base}: commands in the base frame rely on tool_mm as stated, "
+        "and are off by as much as it is; --frame measurement does not"
+        for each in model.undetermined
+        if options.frame == "base"
+    ]
+    if options.pose:
+        notes.append(
+            "recordings do not tell how the tool sits turned on the flange (its mounting, the zero of the last joint): "
+            "orientations are right but for one turn about the flange's axes, the same at all points"
+        )
+    return tuple(notes)
 
 
 def _foretold(identified: Identified) -> tuple[str, ...]:

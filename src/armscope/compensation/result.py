@@ -38,6 +38,7 @@ class Compensated:
         pose: whether the orientation was kept.
         iterations: Newton steps of the row that took most.
         notes: what a user should know.
+        turn_open: whether a turn of the tool on the flange, the same in all rows, is not known.
     """
 
     arm: Arm
@@ -60,6 +61,7 @@ class Compensated:
     pose: bool
     iterations: int
     notes: tuple[str, ...] = ()
+    turn_open: bool = False
 
     @property
     def reached(self) -> NDArray[np.bool_]:

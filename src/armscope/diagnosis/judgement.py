@@ -24,7 +24,7 @@ from armscope.diagnosis.summary.effects import (
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
-from armscope.diagnosis.summary.parameters import beyond_plausible
+from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stated
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
@@ -224,6 +224,7 @@ def _carefully(state: DiagnosisState) -> list[Notice]:
     """What the fit itself says against too much trust."""
     implausible = beyond_plausible(state.fit.model.parts)
     notices = [implausible] if implausible else []
+    notices += tool_as_stated(state.fit.model)
     if state.growth is not None:
         away = np.linalg.norm(state.recordings.positions, axis=1)
         near, far = (f"{float(state.growth.at(d)):.2g} mm at {d:.1f} m" for d in (away.min(), away.max()))

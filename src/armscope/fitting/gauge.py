@@ -25,15 +25,11 @@ class FrameColumns:
 
     Attributes:
         frames: all of them.
-        tools: those of K tool points, x, y, z of each.
-        bases: those of the bases' shifts, x, y, z of each.
-        tool_names: (K,) of the tools, as a sentence has them.
+        tools: (k,) those of tool points.
     """
 
     frames: Indices
     tools: Indices
-    bases: Indices
-    tool_names: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,16 +37,14 @@ class Gauge:
     """Directions of tool points that the rows do not tell from the base.
 
     Attributes:
-        directions: (3 K, r) orthonormal.
+        directions: (k, r) orthonormal.
         response: (p, r) what all parameters change by if tool points move along them by one metre.
         step: (p,) to the tool points as stated.
-        told: which they are, in the axes of tool and base.
     """
 
     directions: Array
     response: Array
     step: Array
-    told: tuple[AsStated, ...]
 
 
 def gauge(matrix: Array, information: Array, at: FrameColumns, deviation: Array, noise_mm: float) -> Gauge | None:
@@ -60,7 +54,7 @@ def gauge(matrix: Array, information: Array, at: FrameColumns, deviation: Array,
         matrix: (p, p) the normal equations with all that holds their parameters, (mm per SI unit)^2.
         information: (p, p) the same of the rows alone.
         at: where frames stand among the p columns.
-        deviation: (3 K,) of the tool points from where they are stated, m.
+        deviation: (k,) of the tool points from where they are stated, m.
         noise_mm: per axis.
 
     Returns:
@@ -74,11 +68,11 @@ def gauge(matrix: Array, information: Array, at: FrameColumns, deviation: Array,
     away = directions.T @ deviation
     if away @ stiffness @ away > directions.shape[1] * (GAUGE.refuted * noise) ** 2:
         return None
-    return Gauge(directions, response, -response @ away, _told(at, directions, response))
+    return Gauge(directions, response, -response @ away)
 
 
 def untold_directions(information: Array, at: FrameColumns, noise_mm: float) -> Array:
-    """(3 K, r) along which tool points are told worse than a stated one is wrong, the arm being as it is.
+    """(k, r) along which tool points are told worse than a stated one is wrong, the arm being as it is.
 
     Args:
         information: (p, p) of the rows, (mm per SI unit)^2.
@@ -117,7 +111,7 @@ def covariance_of_others(matrix: Array, tools: Indices, directions: Array) -> Ar
     Args:
         matrix: (p, p) positive definite.
         tools: columns of the tool points.
-        directions: (3 K, r) orthonormal.
+        directions: (k, r) orthonormal.
 
     Returns:
         (p, p), times the noise's square a covariance.
@@ -146,55 +140,43 @@ def _solved(matrix: Array, right: Array) -> Array:
     return np.asarray(found * size[:, None])
 
 
-def _told(at: FrameColumns, directions: Array, response: Array) -> tuple[AsStated, ...]:
-    """Which axes of which tools go with which of the bases."""
-    parts = np.sum(directions**2, axis=1).reshape(-1, 3)
-    moved = np.sum(response[at.bases] ** 2, axis=1).reshape(-1, 3).sum(axis=0)
-    base = f"base {_axes(moved)}"
-    seen = [n for n, part in enumerate(parts) if part.max() > GAUGE.share * parts.max()]
-    if len(seen) == len(parts):
-        return (AsStated(f"tool {_axes(parts.sum(axis=0))}", base),)
-    return tuple(AsStated(f"tool of {at.tool_names[n]} {_axes(parts[n])}", base) for n in seen)
+@dataclass(frozen=True, eq=False)
+class NamedFrames(FrameColumns):
+    """Free frames among a fit's columns, x, y, z of each tool point, and what they are called.
+
+    Attributes:
+        bases: columns of the bases' shifts, x, y, z of each.
+        names: of the tools, as a sentence has them.
+    """
+
+    bases: Indices
+    names: tuple[str, ...]
+
+    @classmethod
+    def among(cls, terms: Sequence[Term], frames: Indices) -> NamedFrames:
+        """Those among a fit's terms (p,)."""
+        tools: dict[str, dict[str, int]] = {}
+        bases: list[int] = []
+        for column in frames.tolist():
+            product = terms[column].products[0]
+            axis = product.direction.axis
+            if axis in AXES[:3] and product.direction.location == "tool":
+                name = " in run ".join(filter(None, tool_key(product.driver)))
+                tools.setdefault(name, {})[axis] = column
+            elif axis in AXES[:3] and product.direction.location == "base":
+                bases.append(column)
+        at = [each[axis] for each in tools.values() for axis in AXES[:3]]
+        return cls(frames, np.array(at, dtype=np.intp), np.array(bases, dtype=np.intp), tuple(tools))
+
+    def told(self, held: Gauge) -> tuple[AsStated, ...]:
+        """Which axes of which tools go with which of the bases."""
+        parts = np.sum(held.directions**2, axis=1).reshape(-1, 3)
+        base = f"base {_axes(np.sum(held.response[self.bases] ** 2, axis=1).reshape(-1, 3).sum(axis=0))}"
+        seen = [n for n, part in enumerate(parts) if part.max() > GAUGE.share * parts.max()]
+        if len(seen) == len(parts):
+            return (AsStated(f"tool {_axes(parts.sum(axis=0))}", base),)
+        return tuple(AsStated(f"tool of {self.names[n]} {_axes(parts[n])}", base) for n in seen)
 
 
 def _axes(part: Array) -> str:
     return ", ".join(axis for axis, each in zip("xyz", part, strict=True) if each > GAUGE.share * part.max())
-
-
-def frame_terms(terms: Sequence[Term], frames: Indices) -> FrameColumns:
-    """Where free frames stand among a fit's terms.
-
-    Args:
-        terms: (p,) the columns.
-        frames: which of them are free frames.
-
-    Returns:
-        Columns of tool points, tool by tool, and of bases.
-    """
-    tools: dict[str, dict[str, int]] = {}
-    bases: list[int] = []
-    for column in frames.tolist():
-        product = terms[column].products[0]
-        axis = product.direction.axis
-        if axis in AXES[:3] and product.direction.location == "tool":
-            name = " in run ".join(filter(None, tool_key(product.driver)))
-            tools.setdefault(name, {})[axis] = column
-        elif axis in AXES[:3] and product.direction.location == "base":
-            bases.append(column)
-    at = [each[axis] for each in tools.values() for axis in AXES[:3]]
-    return FrameColumns(frames, np.array(at, dtype=np.intp), np.array(bases, dtype=np.intp), tuple(tools))
-
-
-def columns_of_frames(n_bases: int, n_tools: int) -> FrameColumns:
-    """The same of six columns per base, and behind them three per tool.
-
-    Args:
-        n_bases: R.
-        n_tools: K.
-
-    Returns:
-        Columns of tool points and of bases.
-    """
-    every = np.arange(6 * n_bases + 3 * n_tools)
-    bases = every[: 6 * n_bases].reshape(-1, 6)[:, :3].reshape(-1)
-    return FrameColumns(every, every[6 * n_bases :], bases, tuple(str(n) for n in range(n_tools)))

@@ -12,7 +12,7 @@ from armscope.core.rotations import cross_matrices, turned_by
 from armscope.core.sampling import in_one_stretch
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
-from armscope.fitting.gauge import columns_of_frames, gauge
+from armscope.fitting.gauge import FrameColumns, gauge
 from armscope.fitting.gauss_newton import FitResult, NonlinearProblem, Quadratic, gauss_newton
 from armscope.measurement import robust
 
@@ -253,7 +253,8 @@ def place_frames(
     found = gauss_newton(problem, start, most_steps)
     information = 1e6 * problem.quadratic(found.state, found.residual).matrix
     noise_mm = 1e3 * robust.scale_of(found.residual) if len(found.residual) else 0.0
-    at = columns_of_frames(len(start.rotations), len(start.tools))
+    every = np.arange(len(information))
+    at = FrameColumns(every, every[6 * len(start.rotations) :])
     held = gauge(information, information, at, (found.state.tools - stated).reshape(-1), noise_mm)
     if held is None:
         return found

@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.fitting.constants import STEPS
-from armscope.fitting.gauge import covariance_of_others, frame_terms, gauge
+from armscope.fitting.gauge import NamedFrames, covariance_of_others, gauge
 from armscope.fitting.gauss_newton import SETTLED, gauss_newton
 from armscope.fitting.linearisation import Measured, residuals
 from armscope.fitting.model_fit import ModelFit
@@ -138,10 +138,12 @@ def _with_tools_as_stated(problem: ModelFit, found: Refit, noise: float, table: 
 
     What the fit's steps held frames by where they stood is no reason for a tool to stay away from where it is stated.
     """
-    at = frame_terms(problem.parts.terms, problem.parts.frames)
+    at = NamedFrames.among(problem.parts.terms, problem.parts.frames)
     if not len(at.tools):
         return found
-    known = {term: value for part in found.model.tools for term, value in zip(part.placed.terms, part.values)}
+    known = {
+        term: value for part in found.model.tools for term, value in zip(part.placed.terms, part.values, strict=True)
+    }
     deviation = np.array([known[problem.parts.terms[column]] for column in at.tools])
     precision = found.precision.copy()
     precision[at.tools] = 0.0
@@ -149,7 +151,7 @@ def _with_tools_as_stated(problem: ModelFit, found: Refit, noise: float, table: 
     held = gauge(matrix, problem.equations.G, at, deviation, noise)
     if held is None:
         return found
-    model = replace(problem.moved(found.model, held.step), undetermined=held.told)
+    model = replace(problem.moved(found.model, held.step), undetermined=at.told(held))
     return replace(
         found,
         model=model,

@@ -109,7 +109,8 @@ def _length(told: Told) -> str:
 def _drifts(told: Told) -> str:
     in_rows = any("rows" in number.unit for number in told.numbers.values())
     _, comma, paused = told.driver.partition(", ")
-    return f"the base drifts by {_length(told)} mm per {'1000 rows' if in_rows else 'hour'}{comma}{paused}"
+    per = "1000 rows" if in_rows else "hour"
+    return f"the base or the instrument drifts by {_length(told)} mm per {per}{comma}{paused}"
 
 
 def when(told: Told) -> str:
@@ -121,6 +122,13 @@ def when(told: Told) -> str:
 
 def _jumped(told: Told) -> str:
     return f"the {told.location} jumped by {_length(told)} mm{when(told)}"
+
+
+def _base_jumped(told: Told) -> str:
+    """Points do not tell a base that moved from an instrument that did, or was set up again."""
+    if told.driver.startswith(tuple(OF_RUNS)):
+        return f"{_jumped(told)}, or the instrument was set up again"
+    return f"the base or the instrument jumped by {_length(told)} mm{when(told)}"
 
 
 BASE_DRIFT = Effect(
@@ -135,7 +143,7 @@ BASE_DRIFT = Effect(
         change="set-up",
         instruction="Fix base and instrument, and measure again.",
     ),
-    clauses=(_drifts, "the base drifts"),
+    clauses=(_drifts, "the base or the instrument drifts"),
     atlas="time",
     needs=("time_s, or rows in order",),
     contained_in=("time",),
@@ -249,7 +257,7 @@ BASE_SHIFT = Effect(
         change="set-up",
         instruction="Fasten base and instrument, and register the base again from the jump on{jump}.",
     ),
-    clauses=(_jumped, "the {location} jumped"),
+    clauses=(_base_jumped, "the base or the instrument jumped"),
     jumps=True,
     several=True,
 )

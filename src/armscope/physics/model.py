@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array
+from armscope.physics.drivers import follows
 from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import ToolKey
 from armscope.physics.scene import Posture, Scene
@@ -91,6 +92,12 @@ class FittedModel:
         """All that moves the arm or its readings: tools, background and effects."""
         return (*self.tools, *self.background, *self.parts)
 
+    def in_its_own_base(self) -> FittedModel:
+        """Without what moves the base as a whole: where it or the instrument stood does not move the arm in it."""
+        own = (tuple(p for p in some if not moves_the_set_up(p.placed)) for some in (self.parts, self.background))
+        parts, background = own
+        return replace(self, parts=parts, background=background)
+
     def posture(self, scene: Scene) -> Posture:
         """The arm at a scene's rows with all effects in place."""
         return scene.posture(self.everything)
@@ -143,6 +150,16 @@ class FittedModel:
     def unknown_runs(self, recordings: Recordings) -> list[str]:
         """Runs of a table whose base the model does not know."""
         return sorted(set(np.unique(recordings.run).tolist()) - set(self.bases))
+
+
+def moves_the_set_up(placed: Placed) -> bool:
+    """Whether an effect moves base or instrument as a whole, in time, with the temperature or from run to run.
+
+    A base that gives way to a load is the arm's: it does so under every command.
+    """
+    products = [product for term in placed.terms for product in term.products]
+    of_base = placed.location == "base" and all(product.direction.location == "base" for product in products)
+    return of_base and all(follows("run", product.driver) for product in products)
 
 
 def predict(model: FittedModel, recordings: Recordings) -> Array:

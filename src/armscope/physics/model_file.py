@@ -12,7 +12,16 @@ from armscope.core.inputs import InputError, format_of, read_yaml, validate
 from armscope.physics.effect import Driver, Part
 from armscope.physics.model import AsStated, Base, FittedModel
 from armscope.physics.model_check import Reader
-from armscope.physics.model_contents import FORMAT, AsStatedFile, BaseFile, ModelFile, PartFile, ScannedFile, TermFile, ToolTurnFile
+from armscope.physics.model_contents import (
+    FORMAT,
+    AsStatedFile,
+    BaseFile,
+    ModelFile,
+    PartFile,
+    ScannedFile,
+    TermFile,
+    ToolTurnFile,
+)
 from armscope.robot.arm import build_arm
 
 

@@ -15,6 +15,8 @@ from armscope.verdict.effects import Cause, FoundEffect
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
 ANOTHER_MODEL = "another model"
 """The kind of a notice that an arm of the library fits clearly better."""
+TOOL_AS_STATED = "tool as stated"
+"""The kind of a notice that a tool point is as stated, since poses do not tell it from the base."""
 ROWS_LEFT_OUT = "rows left out"
 """The kind of a notice that many rows fit none of what was found."""
 

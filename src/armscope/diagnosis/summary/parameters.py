@@ -9,8 +9,9 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.physics.effect import Part, Placed
+from armscope.physics.model import FittedModel
 from armscope.verdict.effects import Parameter
-from armscope.verdict.schema import Notice
+from armscope.verdict.schema import TOOL_AS_STATED, Notice
 from armscope.verdict.wording import plain
 
 Reading = Callable[[Array], Array]
@@ -56,6 +57,18 @@ def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
         "is this another model of the arm, another convention of its rows, a number on the next row, or a wrong unit?"
     )
     return Notice("implausible", text)
+
+
+def tool_as_stated(model: FittedModel) -> list[Notice]:
+    """What to say where poses do not tell a tool point from the base."""
+    return [
+        Notice(
+            TOOL_AS_STATED,
+            f"These poses do not tell {each.tool} from {each.base}: {each.tool} is kept as stated, and where points "
+            "lie in the arm's own base frame rests on tool_mm. In the measurement frame nothing does.",
+        )
+        for each in model.undetermined
+    ]
 
 
 def undetermined(placed: Placed, covariance: Array) -> tuple[str, ...]:
