@@ -109,8 +109,7 @@ def _length(told: Told) -> str:
 def _drifts(told: Told) -> str:
     in_rows = any("rows" in number.unit for number in told.numbers.values())
     _, comma, paused = told.driver.partition(", ")
-    per = "1000 rows" if in_rows else "hour"
-    return f"the base or the instrument drifts by {_length(told)} mm per {per}{comma}{paused}"
+    return f"the base drifts by {_length(told)} mm per {'1000 rows' if in_rows else 'hour'}{comma}{paused}"
 
 
 def when(told: Told) -> str:
@@ -125,10 +124,9 @@ def _jumped(told: Told) -> str:
 
 
 def _base_jumped(told: Told) -> str:
-    """Points do not tell a base that moved from an instrument that did, or was set up again."""
-    if told.driver.startswith(tuple(OF_RUNS)):
-        return f"{_jumped(told)}, or the instrument was set up again"
-    return f"the base or the instrument jumped by {_length(told)} mm{when(told)}"
+    """Points of two runs do not tell a base that moved from an instrument that was set up again."""
+    of_runs = told.driver.startswith(tuple(OF_RUNS))
+    return _jumped(told) + (", or the instrument was set up again" if of_runs else "")
 
 
 BASE_DRIFT = Effect(
@@ -143,7 +141,7 @@ BASE_DRIFT = Effect(
         change="set-up",
         instruction="Fix base and instrument, and measure again.",
     ),
-    clauses=(_drifts, "the base or the instrument drifts"),
+    clauses=(_drifts, "the base drifts"),
     atlas="time",
     needs=("time_s, or rows in order",),
     contained_in=("time",),
@@ -257,7 +255,7 @@ BASE_SHIFT = Effect(
         change="set-up",
         instruction="Fasten base and instrument, and register the base again from the jump on{jump}.",
     ),
-    clauses=(_base_jumped, "the base or the instrument jumped"),
+    clauses=(_base_jumped, "the {location} jumped"),
     jumps=True,
     several=True,
 )
