@@ -13,7 +13,7 @@ from armscope.core.inputs import InputError
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift
 from armscope.physics.effect import Part
-from armscope.physics.model import Base, FittedModel, predict
+from armscope.physics.model import Base, FittedModel, moves_the_set_up, predict
 from armscope.physics.model_file import load_model, save_model
 from armscope.physics.registry import library
 
@@ -76,3 +76,15 @@ def test_models_move_alike_where_only_zeros_differ() -> None:
     assert not without.moves_like(model)
     assert not model.moves_like(replace(model, parts=(Part(first.placed, 1.01 * first.values), *others)))
     assert not model.moves_like(replace(model, bases=dict(model.bases)))
+
+
+def test_what_moves_the_set_up_is_what_moves_the_whole_base_in_time_or_between_runs() -> None:
+    arm = arm_named("six-axis")
+    table = full_table(arm, 40, 1)
+    placed = [*library(arm, table), base_shift(table, 10, 1), *(p for f in backgrounds(arm, table).values() for p in f)]
+    moving = {p.name for p in placed if moves_the_set_up(p) and p.name != "unknown"}
+    assert moving == {"base_drift", "base_shift", "base_wander"}
+    assert "base_compliance" in {p.name for p in placed if p.location == "base"}
+    own = model_with_everything("six-axis", 1).in_its_own_base()
+    assert not {part.placed.name for part in own.everything} & moving
+    assert "base_compliance" in {part.placed.name for part in own.parts}
