@@ -75,18 +75,20 @@ def test_what_no_instrument_is_as_coarse_as_is_no_noise(noise_mm: float, said: s
     assert ("far above the noise of any instrument" in found.headline) == (said == "cannot tell")
 
 
+@pytest.mark.parametrize("joint", ["joint 2", "joint 6"])
 @pytest.mark.parametrize(("variant", "asked"), [(UNKNOWN_MASSES, True), ("", False)])
-def test_what_hangs_at_the_flange_is_asked_where_stated_masses_do_not_fit(variant: str, asked: bool) -> None:
+def test_what_hangs_at_the_flange_is_asked_where_stated_masses_do_not_fit(
+    variant: str, asked: bool, joint: str
+) -> None:
     """A gripper of 30 kg that nobody had stated made the drives of a wrist come out fifteen times too soft."""
     arm = arm_named("six-axis")
-    drives = {
-        each.variant: each for each in JOINT_COMPLIANCE.place(arm, one_run(arm, 40, 3)) if each.location == "joint 2"
-    }
+    drives = {each.variant: each for each in JOINT_COMPLIANCE.place(arm, one_run(arm, 40, 3)) if each.location == joint}
     part = Part(drives[variant], np.full(len(drives[variant].terms), 1e-6))
     state = SimpleNamespace(fit=SimpleNamespace(model=SimpleNamespace(arm=arm, parts=(part,))))
     told = load_in_question(state)
     assert bool(told) == asked
     if asked:
-        assert told[0].text.startswith("Joint 2 gives way to another load than the stated masses make")
+        assert told[0].text.startswith(f"{joint.capitalize()} gives way to another load than the stated masses make")
+        assert ("does the target sit loosely" in told[0].text) == (joint == "joint 6"), "an arm of six joints"
     unknown = SimpleNamespace(arm=replace(arm, masses=np.zeros_like(arm.masses)), parts=(part,))
     assert not load_in_question(SimpleNamespace(fit=SimpleNamespace(model=unknown)))

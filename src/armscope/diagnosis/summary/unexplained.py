@@ -128,6 +128,11 @@ def load_in_question(state: DiagnosisState) -> list[Notice]:
         "`payload_kg` in the recordings), does a spring balance a joint, or are those masses off? State what is there "
         "and diagnose again, before drives are corrected one by one: stiffness told beside a wrong load is wrong, too."
     )
+    if f"joint {arm.n_motors}" in by_others:
+        text += (
+            " Or does the target sit loosely (nest, magnet, adapter)? Gravity moves it then as if the last joint gave "
+            "way: hold it and feel."
+        )
     return [Notice("load in question", text)]
 
 
