@@ -77,9 +77,7 @@ def test_what_no_instrument_is_as_coarse_as_is_no_noise(noise_mm: float, said: s
 
 @pytest.mark.parametrize("joint", ["joint 2", "joint 6"])
 @pytest.mark.parametrize(("variant", "asked"), [(UNKNOWN_MASSES, True), ("", False)])
-def test_what_hangs_at_the_flange_is_asked_where_stated_masses_do_not_fit(
-    variant: str, asked: bool, joint: str
-) -> None:
+def test_what_hangs_at_the_flange_is_asked_where_masses_do_not_fit(variant: str, asked: bool, joint: str) -> None:
     """A gripper of 30 kg that nobody had stated made the drives of a wrist come out fifteen times too soft."""
     arm = arm_named("six-axis")
     drives = {each.variant: each for each in JOINT_COMPLIANCE.place(arm, one_run(arm, 40, 3)) if each.location == joint}
