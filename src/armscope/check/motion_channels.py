@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import Samples
+from armscope.check.motion_readings import Samples, left_along
 from armscope.check.suspicion import Suspicion
 from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
@@ -18,8 +19,39 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.wording import percent
 
+SIGN = "has the sign opposite"
+"""What is said of every torque whose sign is turned, after its name."""
+OF_MASSES = "what moves the stated masses"
+"""Opposite to which it is, where it is masses that say so."""
 
-def odd_channels(motions: Motions, samples: Samples, arm: MovingArm, told: Iterator[Suspicion]) -> Iterator[Suspicion]:
+
+@dataclass(frozen=True)
+class Channels:
+    """Columns of torque or current, by joint.
+
+    Attributes:
+        names: of the table.
+        gains: N m (N) per unit of each joint's column.
+        currents: whether they are amperes.
+    """
+
+    names: tuple[str, ...]
+    gains: tuple[float, ...]
+    currents: bool = False
+
+    @classmethod
+    def of(cls, motions: Motions, arm: MovingArm) -> Channels:
+        """Of a table, as it stands."""
+        currents = motions.kind == "current"
+        gains = np.where(np.isnan(arm.gains), 1.0, arm.gains) if currents else np.ones(motions.n_motors)
+        return cls(tuple(channels(motions)), tuple(gains.tolist()), currents)
+
+    def reordered(self, order: tuple[int, ...]) -> Channels:
+        """With columns in another order; a gain stays its joint's."""
+        return replace(self, names=tuple(self.names[j] for j in order)) if order else self
+
+
+def odd_channels(samples: Samples, arm: MovingArm, of: Channels, told: Iterator[Suspicion]) -> Iterator[Suspicion]:
     """Torques or currents that no joint has that moves so.
 
     Friction takes power from every motor, whatever its masses: a torque that goes against the speed where friction
@@ -28,9 +60,9 @@ def odd_channels(motions: Motions, samples: Samples, arm: MovingArm, told: Itera
     nor acceleration explain anything was not connected.
 
     Args:
-        motions: of which the samples are.
         samples: differenced over a twentieth of a second.
         arm: as stated.
+        of: the columns.
         told: what was found of their sign and size.
 
     Yields:
@@ -40,21 +72,31 @@ def odd_channels(motions: Motions, samples: Samples, arm: MovingArm, told: Itera
     yield from known
     if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
         return
-    few = samples.rows(spread_evenly(len(samples.q), MOTION.rows))
+    few, along = samples.rows(spread_evenly(len(samples.q), MOTION.rows)), left_along(samples, arm)
     asked = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
-    gains = np.where(np.isnan(arm.gains), 1.0, arm.gains) if motions.kind == "current" else np.ones(motions.n_motors)
-    for j, name in enumerate(channels(motions)):
-        moves = np.ptp(motions.q[:, j]) > LIBRARY.still_rad
+    for j, name in enumerate(of.names):
+        moves = np.ptp(few.q[:, j]) > LIBRARY.still_rad
         if not moves or np.ptp(few.effort[:, j]) == 0 or any(each.statement.startswith(f"{name} ") for each in known):
             continue
-        effort = few.effort[:, j] * gains[j]
+        effort = few.effort[:, j] * of.gains[j]
+        as_it_is, turned = along[:, j].tolist()
         if (noise := _noise_alone(effort, asked[:, j], few, j)) is not None:
             statement = f"{name} shows noise alone: {noise}"
             yield Suspicion("problem", statement, f"Is the channel of joint {j + 1} connected?")
         elif _friction_drives(effort, asked[:, j], few, j):
-            statement = f"{name} has the sign opposite to the motion: friction of joint {j + 1} would drive it"
-            cure = "Turn its sign: torque is the motor's, positive along the motion it drives."
-            yield Suspicion("problem", statement, cure)
+            statement = f"{name} {SIGN} to the motion: friction of joint {j + 1} would drive it"
+            yield Suspicion("problem", statement, turn(of.currents))
+        elif MOTION.clearly * turned < as_it_is and 1 - turned > MOTION.explained:
+            shares = f"explain {percent(1 - turned)} of it with its sign turned, {percent(1 - as_it_is)} as it is"
+            statement = f"{name} {SIGN} to {OF_MASSES}: they, a rotor and friction of joint {j + 1} {shares}"
+            yield Suspicion("problem", statement, turn(of.currents))
+
+
+def turn(currents: bool) -> str:
+    """The cure of a turned sign."""
+    if currents:
+        return "Turn its sign, or that of its gain_nm_per_a: the motor's torque is positive along the motion it drives."
+    return "Turn its sign: torque is the motor's, positive along the motion it drives."
 
 
 def _noise_alone(effort: Array, asked: Array, samples: Samples, j: int) -> str | None:

@@ -44,6 +44,25 @@ class Samples:
         moved = self if what == TORQUES else Samples(self.q[:, to], self.dq[:, to], self.ddq[:, to], self.effort)
         return moved if what == POSITIONS else replace(moved, effort=self.effort[:, to])
 
+    def turned(self, joints: Sequence[int]) -> Samples:
+        """With the sign of some joints' torque turned."""
+        return replace(self, effort=np.where(np.isin(np.arange(self.effort.shape[1]), joints), -1, 1) * self.effort)
+
+
+@dataclass(frozen=True, eq=False)
+class OtherReading:
+    """What a table means if it is not what its columns say.
+
+    Attributes:
+        told: in words.
+        samples: as they are then.
+        order: of the channels of torque, by joint; empty as they stand.
+    """
+
+    told: tuple[Suspicion, ...]
+    samples: Samples
+    order: tuple[int, ...] = ()
+
 
 def beyond_friction(samples: Samples, rigid: Array) -> Iterator[tuple[Array, Array]]:
     """By joint, (N,) torque as recorded and as the masses ask for, each without offset, friction and a rotor."""
@@ -69,7 +88,7 @@ def explained(samples: Samples, arm: MovingArm) -> float:
     return told / total if total > 0 else 1.0
 
 
-def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
+def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[OtherReading]:
     """What the table means if it is not what its columns say: degrees, or another order of the joints.
 
     Yields:
@@ -83,35 +102,30 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
     def better(share: float) -> bool:
         return share > MOTION.explained and MOTION.clearly * (1 - share) < 1 - stated
 
+    def reading(share: float, otherwise: str, cure: str, then: Samples, order: tuple[int, ...] = ()) -> OtherReading:
+        statement = f"masses explain {_share(stated)} of the torque, and {_share(share)} {otherwise}"
+        return OtherReading((Suspicion("problem", statement, cure),), then, order)
+
     if (as_radians := _as_radians(few, arm)) is not None and better(as_radians):
-        yield Suspicion(
-            "problem",
-            f"masses explain {_share(stated)} of the torque, and {_share(as_radians)} if what is read as degrees is "
-            "radians: no joint moves beyond 6.3 degrees",
-            "Call their columns q1_rad ... and dq1_rad_s ....",
-        )
+        otherwise = "if what is read as degrees is radians: no joint moves beyond 6.3 degrees"
+        cure = "Call their columns q1_rad ... and dq1_rad_s ...."
+        yield reading(as_radians, otherwise, cure, samples.scaled(180 / np.pi, ~arm.sliding))
         return
     if stated >= MOTION.explained:
         return
     as_degrees = explained(few.scaled(np.pi / 180, ~arm.sliding), arm)
     if better(as_degrees):
-        yield Suspicion(
-            "problem",
-            f"masses explain {_share(stated)} of the torque, and {_share(as_degrees)} if positions are degrees",
-            "Call their columns q1_deg ... and dq1_deg_s ....",
-        )
+        then = samples.scaled(np.pi / 180, ~arm.sliding)
+        yield reading(as_degrees, "if positions are degrees", "Call their columns q1_deg ... and dq1_deg_s ....", then)
         return
     found = [
         (explained(few.reordered(order, what), arm), what, order) for order in _orders(arm) for what in MISNUMBERED
     ]
     best, what, order = max(found, default=(0.0, JOINTS, ()))
     if better(best):
-        told = " ".join(f"{j + 1}" for j in order)
-        yield Suspicion(
-            "problem",
-            f"masses explain {_share(stated)} of the torque, and {_share(best)} with {what} in the order {told}",
-            "Number the columns in the order of the arm's joints, from the base.",
-        )
+        otherwise = f"with {what} in the order {' '.join(f'{j + 1}' for j in order)}"
+        cure = "Number the columns in the order of the arm's joints, from the base."
+        yield reading(best, otherwise, cure, samples.reordered(order, what), order if what != POSITIONS else ())
 
 
 def _as_radians(few: Samples, arm: MovingArm) -> float | None:
@@ -178,7 +192,7 @@ def _left_by_masses(
     return np.array(left)
 
 
-def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> list[tuple[int, Suspicion]]:
+def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> Iterator[OtherReading]:
     """Torques that follow another joint's motion and hardly their own: friction tells it where masses ask for little.
 
     Args:
@@ -186,11 +200,11 @@ def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> list[tu
         arm: as stated.
         names: of the columns of torque.
 
-    Returns:
-        For every such column its number and the problem; none unless each of them, put in order, is told far better.
+    Yields:
+        Once, with a problem for every such column, if each of them, put in order, is told far better.
     """
     if len(samples.q) < MOTION.reading_samples or arm.n_motors < 2:
-        return []
+        return
     from scipy.optimize import linear_sum_assignment  # takes long to import: a table that is refused needs none
 
     few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
@@ -198,8 +212,8 @@ def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> list[tu
     told_by = linear_sum_assignment(np.log(left))[1]
     moved = np.flatnonzero(told_by != np.arange(arm.n_motors))
     own, others = left[moved, moved], left[moved, told_by[moved]]
-    if np.any(own <= MOTION.clearly * others) or np.any(1 - others < MOTION.explained):
-        return []
+    if not len(moved) or np.any(own <= MOTION.clearly * others) or np.any(1 - others < MOTION.explained):
+        return
     found = []
     for j, of, now, then in zip(moved.tolist(), told_by[moved].tolist(), own, others, strict=True):
         statement = (
@@ -207,8 +221,29 @@ def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> list[tu
             f"those of joint {j + 1} {_share(1 - now)}"
         )
         cure = f"Are torques exchanged? Call the column that of joint {of + 1}."
-        found.append((j, Suspicion("problem", statement, cure)))
-    return found
+        found.append(Suspicion("problem", statement, cure))
+    order = tuple(np.argsort(told_by).tolist())
+    yield OtherReading(tuple(found), samples.reordered(order, TORQUES), order)
+
+
+def left_along(samples: Samples, arm: MovingArm) -> Array:
+    """(2, m) share of each torque, as it is and with its sign turned, that offset and its joint's motion leave.
+
+    Of the motion friction, a rotor and the stated masses ask for torque, none of which can be negative.
+    """
+    from scipy.optimize import nnls  # takes long to import: a table that is refused needs none
+
+    few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
+    rigid, left = arm.torques(few.q, few.dq, few.ddq, arm.inertial), np.ones((2, arm.n_motors))
+    for j in range(arm.n_motors):
+        asked = np.column_stack([np.sign(few.dq[:, j]), few.dq[:, j], few.ddq[:, j], rigid[:, j]])
+        asked -= asked.mean(axis=0)
+        asked /= np.maximum(np.linalg.norm(asked, axis=0), 1e-300)
+        recorded = few.effort[:, j] - few.effort[:, j].mean()
+        size = float(np.linalg.norm(recorded))
+        if size > 0:
+            left[:, j] = [(nnls(asked, sign * recorded / size)[1]) ** 2 for sign in (1, -1)]
+    return np.maximum(left, MOTION.least_left)
 
 
 def _left_by_motion(samples: Samples, arm: MovingArm) -> Array:

@@ -9,11 +9,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from armscope.check.motion_channels import odd_channels
+from armscope.check.motion_channels import Channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_links import links_beside_motors
-from armscope.check.motion_readings import Samples, beyond_friction, exchanged, read_otherwise, zeros_elsewhere
+from armscope.check.motion_mistakes import mistakes
+from armscope.check.motion_readings import Samples
 from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
@@ -23,9 +24,6 @@ from armscope.motion.samples.timing import gaps, mended_rows
 from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
-
-SIGN = "the sign opposite to what moves the stated masses"
-"""What is said of a torque that masses alone call turned."""
 
 
 @dataclass(frozen=True)
@@ -72,24 +70,9 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     if arm is not None and not broken:  # speeds across a leap are no speeds
         runs = {run: _coarse(even, run) for run in even.runs}
         samples = _samples([few for _, few in runs.values()])
-        found += _readings(even, samples, arm)
+        found += mistakes(samples, arm, Channels.of(even, arm))
         found += other_clock(even, runs, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))
-
-
-def _readings(motions: Motions, samples: Samples, arm: MovingArm) -> list[Suspicion]:
-    """What torques say of units, signs, order and zeros; where order or a zero says more than signs, that alone."""
-    of_size = _torques(motions, samples, arm) if motions.kind == "torque" else iter(())
-    odd, order = list(odd_channels(motions, samples, arm, of_size)), list(read_otherwise(samples, arm))
-    if order:
-        return [*order, *odd]
-    swapped = exchanged(samples, arm, channels(motions))
-    if swapped:
-        names = tuple(f"{channels(motions)[j]} " for j, _ in swapped)
-        return [*(each for _, each in swapped), *(each for each in odd if not each.statement.startswith(names))]
-    zeros = list(zeros_elsewhere(samples, arm))
-    sure = any(each.weight == "problem" for each in zeros)
-    return [*zeros, *(each for each in odd if not (sure and each.statement.endswith(SIGN)))]
 
 
 def _contents(motions: Motions) -> Iterator[str]:
@@ -197,33 +180,6 @@ def _same_paths(motions: Motions) -> Iterator[Suspicion]:
         if float(np.percentile(away, 90)) < MOTION.same_path * np.sqrt(motions.n_motors):
             statement = f"run {other} repeats the path of run {one}"
             yield Suspicion("hint", statement, "Held out, it tests the noise and not the model: hold out another path.")
-
-
-def _torques(motions: Motions, samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
-    """Sign and size of recorded torques against what the stated masses ask for, with friction and a rotor fitted."""
-    few = samples.rows(spread_evenly(len(samples.q), MOTION.rows))
-    rigid = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
-    factors: dict[int, float] = {}
-    for j, (left, asked) in enumerate(beyond_friction(few, rigid)):
-        power = float(asked @ asked)
-        if power > 0 and (asked @ left) ** 2 >= MOTION.explained * power * float(left @ left):
-            factors[j] = float(asked @ left) / power
-    most = float(np.median(np.abs(list(factors.values())))) if factors else 1.0
-    for j, factor in factors.items():
-        name = channels(motions)[j]
-        if factor < 0:
-            cure = "Is it the load's torque? Turn its sign: torque is the motor's, positive along the motion it drives."
-            if arm.model.gravity.linear[2] > 0:
-                cure = f"gravity_m_s2 of robot.yaml points up: does the arm hang from a ceiling? If it does: {cure}"
-            yield Suspicion("problem", f"{name} has {SIGN}", cure)
-        elif not 1 / MOTION.other_size < factor < MOTION.other_size:
-            # a load that nobody stated does that to a wrist, and is no mistake of the table
-            far = not 1 / MOTION.no_load <= factor <= MOTION.no_load or not 1 / MOTION.no_load <= most <= MOTION.no_load
-            weight: Literal["problem", "hint"] = (
-                "problem" if far or not 1 / MOTION.other_size < most < MOTION.other_size else "hint"
-            )
-            cure = "Is it the torque before the gear, another unit, or another load than stated?"
-            yield Suspicion(weight, f"{name} is {factor:.3g} times what the stated masses ask for", cure)
 
 
 def _samples(parts: Sequence[Samples]) -> Samples:

@@ -1,0 +1,126 @@
+"""What torques of a moving arm say of signs, order, units and zeros: the simplest mistake that explains them, first.
+
+A turned sign spoils what masses explain as another order does, and another order can pass for turned signs. So each is
+mended for a trial, and what is then still found decides between them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import chain
+
+import numpy as np
+
+from armscope.check.motion_channels import OF_MASSES, SIGN, Channels, odd_channels
+from armscope.check.motion_constants import MOTION
+from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_along, read_otherwise, zeros_elsewhere
+from armscope.check.motion_signs import signs_and_sizes
+from armscope.check.suspicion import Suspicion
+from armscope.robot.dynamics import MovingArm
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """Samples as they are read for a trial, with what is odd in them."""
+
+    samples: Samples
+    arm: MovingArm
+    of: Channels
+
+    @property
+    def odd(self) -> list[Suspicion]:
+        """Of single channels."""
+        told = signs_and_sizes(self.samples, self.arm, self.of)
+        return list(odd_channels(self.samples, self.arm, self.of, told))
+
+    @property
+    def reading(self) -> OtherReading | None:
+        """Units or an order other than stated."""
+        otherwise = read_otherwise(self.samples, self.arm)
+        return next(chain(otherwise, exchanged(self.samples, self.arm, self.of.names)), None)
+
+    @property
+    def left(self) -> float:
+        """Logarithm of the share that each joint's motion leaves of its torque, summed."""
+        return float(np.log(left_along(self.samples, self.arm)[0]).sum())
+
+    def turned(self, odd: list[Suspicion]) -> _Table:
+        """With every sign turned of which that is told."""
+        names = {each.statement.split()[0] for each in odd if _of_sign(each)}
+        return replace(self, samples=self.samples.turned([j for j, name in enumerate(self.of.names) if name in names]))
+
+    def read(self, reading: OtherReading) -> _Table:
+        """As a reading has it."""
+        return replace(self, samples=reading.samples, of=self.of.reordered(reading.order))
+
+
+def mistakes(samples: Samples, arm: MovingArm, of: Channels) -> list[Suspicion]:
+    """What torques say of units, signs, order and zeros; where order or a zero says more than signs, that alone.
+
+    Args:
+        samples: differenced over a twentieth of a second.
+        arm: as stated.
+        of: the columns of torque or current.
+
+    Returns:
+        Problems and hints, what is to be mended first before what is seen after that.
+    """
+    backward = np.flatnonzero(np.array(of.gains) < 0).tolist()
+    table = _Table(samples.turned(backward), arm, replace(of, gains=tuple(map(abs, of.gains))))
+    odd, reading = table.odd, table.reading
+    if reading is None:
+        zeros = list(zeros_elsewhere(samples, arm))
+        sure = any(each.weight == "problem" for each in zeros)
+        return [*zeros, *(each for each in odd if not (sure and OF_MASSES in each.statement))]
+    signs, then = [each for each in odd if _of_sign(each)], table.read(reading)
+    odd_then = then.odd
+    if not signs:
+        return _in_turn(list(reading.told), odd_then, "in that order or unit")
+    turned = table.turned(odd)
+    return _sooner(_Trial(turned, signs, odd, turned.reading), _Trial(then, list(reading.told), odd_then))
+
+
+@dataclass(frozen=True, eq=False)
+class _Trial:
+    """A mistake that is taken to be there, and what is left to tell once it is mended.
+
+    Attributes:
+        table: as mended.
+        first: the mistake.
+        odd: all that is told of single channels beside it.
+        reading: that is still needed.
+    """
+
+    table: _Table
+    first: list[Suspicion]
+    odd: list[Suspicion]
+    reading: OtherReading | None = None
+
+    @property
+    def settles(self) -> bool:
+        """Whether no other mistake is left to mend."""
+        return self.reading is None and not any(_of_sign(each) for each in self.odd if each not in self.first)
+
+
+def _sooner(signs: _Trial, reading: _Trial) -> list[Suspicion]:
+    """Turned signs, or a reading: what settles it, leaves less, or is the simpler of two alike."""
+    more = signs.table.left - reading.table.left
+    if signs.settles != reading.settles:
+        first_signs = signs.settles
+    elif abs(more) > np.log(MOTION.clearly):
+        first_signs = more < 0
+    else:
+        first_signs = len(signs.first) == 1
+    if not first_signs:
+        return _in_turn(reading.first, reading.odd, "in that order or unit")
+    after = [] if signs.reading is None else list(signs.reading.told)
+    return _in_turn(signs.odd, after, "with turned signs put right")
+
+
+def _in_turn(first: list[Suspicion], then: list[Suspicion], mended: str) -> list[Suspicion]:
+    """What is to be mended first, and what is told after it, in words that say so."""
+    return [*first, *(replace(each, statement=f"{mended}, {each.statement}") for each in then)]
+
+
+def _of_sign(each: Suspicion) -> bool:
+    return SIGN in each.statement
