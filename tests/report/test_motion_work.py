@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary.entering import Entered
 from armscope.report.pages.motion import write_motion_report
-from armscope.report.sections.motion_work import error_in_words, where_it_shows
+from armscope.report.sections.motion_work import error_in_words, pays, where_it_shows
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 
@@ -33,3 +34,30 @@ def test_a_step_that_puts_a_wrist_right_says_so_though_the_whole_arm_hardly_show
     assert where_it_shows(before, after) == " (joint 2 alone: 22 % before, 1.6 % then)"
     assert where_it_shows(before, Entered(0.02, (0.01, 0.02))) == ""
     assert where_it_shows(before, before) == ""
+
+
+def test_what_was_fitted_along_is_no_step_of_its_own_where_it_pays_nothing() -> None:
+    """ "80 % after this" was promised of 80 %: what counted was a turned sign, which came after."""
+    before = Entered(0.797, (0.8,))
+    assert pays(before, Entered(0.7, (0.8,)))
+    assert not pays(before, Entered(0.796, (0.8,)))
+    assert not pays(before, Entered(0.868, (0.8,)))
+
+
+def test_a_turned_current_is_told_as_that_on_page_and_order(tmp_path: Path) -> None:
+    """It was "199.979 ± 0.075 % too small" with "Correct the joint's torque constant" as its cure."""
+    gains = [20.0, 22.0, 15.0]
+    drives = [{"gain_nm_per_a": gain, "gain_uncertainty": 0.03} for gain in gains]
+    recorded = moved(robot(), 1, seconds=10.0)
+    turned = replace(recorded, kind="current", effort=recorded.effort / gains * [1.0, 1.0, -1.0])
+    found = diagnose_motion(robot(drives=drives), turned, MotionSettings(cutoff=10.0))
+    write_motion_report(found, "motions.csv", tmp_path)
+    first = found.verdict.effects[0]
+    assert (first.effect, first.location) == ("motor_constant", "joint 3")
+    assert found.verdict.headline.startswith("The sign of the recorded torque of joint 3 is turned")
+    assert first.cure.startswith("Turn the sign of current3_a, or of the joint's gain_nm_per_a in robot.yaml")
+    for page in ("report.html", "work-order.html"):
+        text = (tmp_path / page).read_text(encoding="utf-8").replace("\u00a0", " ")
+        assert "The sign of the recorded torque of joint 3 is turned" in text
+        assert "Turn the sign of current3_a" in text
+        assert "too small" not in text

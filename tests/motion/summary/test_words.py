@@ -53,6 +53,7 @@ def test_a_run_is_told_once_whatever_it_is_called(name: str, told: str) -> None:
 TIMES, HAND = Parameter("times", "", -1.0, 0.1), "the model's hand is not on the arm"
 MASS, MOMENT = Parameter("mass", "kg", -0.3, 0.5), Parameter("mx", "kg m", 0.4, 0.1)
 WIDER = Parameter("wider", "N m", 1.0, 0.1)
+TURNED = Parameter("gain", "", -1.9998, 1e-3)
 HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
 
 
@@ -67,6 +68,9 @@ HEAVIER, IN_RUN = Parameter("mass", "kg", 2.0, 0.1), "payload error in run b"
         (cause("link_mass", Parameter("mass", "kg", -4.31, 2.04)), "link_mass, whose size is not determined"),
         (cause("link_mass", Parameter("mass", "kg", -4.31, 1.0)), "4.3 ± 2.0 kg lighter than stated"),
         (cause("motor_constant", Parameter("gain", "", 0.085, 0.01)), "joint 4 is 8.5 ± 2.0 % too large"),
+        (cause("motor_constant", TURNED), "the sign of the recorded torque of joint 4 is turned"),
+        (cause("motor_constant", replace(TURNED, value=-3.0)), "is turned, and its size 100.00 ± 0.20 % too large"),
+        (cause("motor_constant", replace(TURNED, value=-1.0)), "joint 4 is 100.00 ± 0.20 % too small"),
         (cause("torque_offset", Parameter("offset", "N m", -0.2, 0.01)), "reads 0.200 ± 0.020 N m too low"),
         (cause("asymmetric_friction", Parameter("viscous_difference", "N m s/rad", -3, 0.1)), "lower forward"),
         (cause("stribeck_friction", Parameter("stribeck", "N m", 0.5, 0.1), WIDER), "0.50 ± 0.20 N m higher near rest"),
@@ -145,3 +149,12 @@ def test_a_torque_of_the_other_sign_has_no_factor_and_a_tilt_found_by_a_curve_no
     for remedy, kind in ((by_factor, catalogue.GAIN), (gravity_vector, catalogue.GRAVITY)):
         assert kind.remedy is remedy
         assert remedy(Fitted(kind.cure, (reversed_,), robot())) == kind.cure
+
+
+def test_a_turned_sign_is_turned_back_in_its_own_column_and_by_its_size_where_that_is_off_too() -> None:
+    told = lambda value, **how: by_factor(Fitted("", (replace(TURNED, value=value),), robot(), place="joint 3", **how))
+    assert told(-1.9998) == "Turn the sign of tau3_nm."
+    assert told(-3.0) == "Turn the sign of tau3_nm, and multiply it by 0.500."
+    own = "Turn the sign of current3_a, or of the joint's gain_nm_per_a in robot.yaml"
+    assert told(-1.9998, currents=True) == f"{own}."
+    assert told(-0.5) == "Multiply the joint's torque constant, and so the recorded torque, by 2.000."

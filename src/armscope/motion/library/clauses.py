@@ -135,11 +135,25 @@ def open_delay_clause(cause: FoundCause, numbers: Numbers) -> str:
 
 
 def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
-    """A torque constant that is off."""
+    """A torque constant that is off, or a torque whose sign is turned."""
     gain = numbers["gain"]
+    if is_turned(gain):
+        size = turned_size(gain)
+        off = "" if _open(size) else f", and its size {amount(size)} too {'large' if size.value > 0 else 'small'}"
+        return f"the sign of the recorded torque of {cause.location} is turned{off}"
     shown = Parameter("gain", "%", 100 * gain.value, 100 * gain.stderr)
     side = "large" if gain.value > 0 else "small"
     return f"the recorded torque of {cause.location} is {amount(shown)} too {side}"
+
+
+def is_turned(gain: Parameter) -> bool:
+    """Whether a gain's error is more than all of the torque: what is recorded has the other sign."""
+    return gain.interval[1] < -1
+
+
+def turned_size(gain: Parameter) -> Parameter:
+    """By how many percent a torque is too large or small once its sign is turned back."""
+    return Parameter("size", "%", 100 * (-2 - gain.value), 100 * gain.stderr)
 
 
 def compliance_clause(cause: FoundCause, numbers: Numbers) -> str:

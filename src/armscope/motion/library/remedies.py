@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.motion.library.clauses import ALL_JOINTS, Numbers, amount
+from armscope.motion.library.clauses import ALL_JOINTS, Numbers, amount, is_turned, turned_size
+from armscope.recordings.motions import torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.robot.model import dh_halves
 from armscope.verdict.effects import Parameter
@@ -30,6 +31,7 @@ class Fitted:
         place: where it is, as in "link 2" or "joint 3 from joint 2".
         run: the only one that has it; empty where all have.
         driver: what it follows.
+        currents: whether currents were recorded, and not torques.
     """
 
     cure: str
@@ -39,6 +41,7 @@ class Fitted:
     place: str = ""
     run: str = ""
     driver: str = ""
+    currents: bool = False
 
     @property
     def first(self) -> Parameter:
@@ -72,11 +75,25 @@ def each_direction(fitted: Fitted) -> str:
 
 
 def by_factor(fitted: Fitted) -> str:
-    """A torque constant, and with it the recorded torque."""
+    """A torque constant, and with it the recorded torque; where its sign is turned, that."""
+    if is_turned(fitted.first) and fitted.place:
+        return turned_back(fitted)
     if fitted.first.value <= -1:
         return fitted.cure
     factor = 1 / (1 + fitted.first.value)
     return f"Multiply the joint's torque constant, and so the recorded torque, by {factor:.3f}."
+
+
+def turned_back(fitted: Fitted) -> str:
+    """The column whose sign is turned, and its size where that is off, too."""
+    joint = int(fitted.place.split()[1])
+    name = torque_columns(fitted.arm.sliding)[joint - 1]
+    turn = f"Turn the sign of {name}"
+    if fitted.currents:
+        name = f"current{joint}_a"
+        turn = f"Turn the sign of {name}, or of the joint's gain_nm_per_a in robot.yaml"
+    low, high = turned_size(fitted.first).interval
+    return f"{turn}." if low <= 0 <= high else f"{turn}, and multiply it by {-1 / (1 + fitted.first.value):.3f}."
 
 
 def off_the_recording(fitted: Fitted) -> str:

@@ -80,7 +80,7 @@ def _found(
         consistent=agreed.consistent,
         physics=placed.cause.physics,
         confirm=(placed.common and placed.cause.confirm_common) or placed.cause.confirm,
-        cure=cure(placed, parameters, layout.arm),
+        cure=cure(placed, parameters, layout.arm, layout.with_gains),
         doubt=f"{doubt_of(selected, number, agreed, parameters)} {not_told_apart(alternatives)}".strip(),
     )
 

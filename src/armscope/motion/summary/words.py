@@ -35,13 +35,14 @@ def clause(cause: FoundCause) -> str:
     return f"in run {run} {told}" if run else told
 
 
-def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -> str:
+def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm, currents: bool = False) -> str:
     """What to change, with sign and number where the cause has one number, or few.
 
     Args:
         placed: the cause at its place.
         parameters: as fitted.
         arm: as stated.
+        currents: whether currents were recorded, and not torques.
 
     Returns:
         A sentence or two; the cause's own words where its numbers are not determined.
@@ -51,5 +52,5 @@ def cure(placed: PlacedCause, parameters: Sequence[Parameter], arm: MovingArm) -
     sure = say if determined(parameters) else None
     unsure = "" if determined(parameters) else placed.cause.open_cure
     run = placed.runs[0] if placed.runs else ""
-    fitted = Fitted(own, tuple(parameters), arm, of_law, placed.location, run, placed.driver)
+    fitted = Fitted(own, tuple(parameters), arm, of_law, placed.location, run, placed.driver, currents)
     return sure(fitted) if sure else unsure or own
