@@ -15,6 +15,7 @@ from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
 from armscope.verdict.corrections import corrected_origins, corrected_rows, unsettled, zero_offsets
+from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.effects import FoundEffect, Parameter
 from tests.report.verdicts import found
 from tests.robot.test_urdf import TORSO_ARM, build
@@ -24,7 +25,7 @@ ERRORS = {"tx": 0.7e-3, "ty": -0.2e-3, "tz": 0.4e-3, "rx": 6e-4, "ry": -9e-4, "r
 
 def saying(arm: Arm, *effects: FoundEffect) -> Any:
     """As much of a verdict as corrections ask for."""
-    return SimpleNamespace(model=SimpleNamespace(arm=arm), effects=effects)
+    return SimpleNamespace(model=SimpleNamespace(arm=arm), effects=effects, next_poses=None)
 
 
 def another_shape(joint: int, errors: dict[str, float]) -> FoundEffect:
@@ -131,6 +132,20 @@ def test_what_is_one_reading_of_several_is_not_entered() -> None:
         assert bool(zeros["actual_minus_commanded_mrad"].any()) == entered
         assert zeros["cause"][1] == ("named" if entered else "to be settled")
         assert len(unsettled(told)) == (0 if entered else 2)
+
+
+def test_what_the_poses_to_measure_next_ask_about_is_not_entered() -> None:
+    """Seen: "One question about a minor effect is open" in the report, and the row of that link among the corrected."""
+    link = found("link_geometry", "link 3", Parameter("alpha", "rad", -1e-3, 1e-5), Parameter("a", "mm", 0.5, 0.01))
+    told = saying(build_arm(nominal_description("ur5e")), link)
+    none = np.empty(0)
+    told.next_poses = NextPoses(none, none, none, "link_geometry at link 3", "axis_wobble at joint 3", 131.0)
+    rows = corrected_rows(told)
+    assert rows is not None
+    assert not rows.filter(like="correction_").any(axis=None)
+    assert unsettled(told) == [link]
+    told.next_poses = replace(told.next_poses, first="link_geometry at link 4")
+    assert not unsettled(told)
 
 
 def test_an_arm_has_rows_or_origins_never_both() -> None:

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from armscope.core.averages import rms
-from armscope.report.pages.diagnosis import _write_work_order
+from armscope.report.pages.diagnosis import write_work_order
 from armscope.report.sections import cures, effects
 from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
@@ -38,7 +38,7 @@ def test_causes_that_work_against_each_other_are_entered_together(tmp_path: Path
     assert order.step_of("joint_offset at joint 2") == "step 1, only together with joint 3"
     subject = Subject(case.verdict)
     subject.__dict__["order"] = order  # in the place of what is calculated once
-    _write_work_order(subject, tmp_path)
+    write_work_order(subject, tmp_path)
     assert "step 1, only together with joint 3" in (tmp_path / "work-order.html").read_text()
     entered = pd.read_csv(tmp_path / "zero_offsets.csv").set_index("joint")["step"]
     assert entered["joint 3"] == "step 1, only together with joint 2"
@@ -97,7 +97,7 @@ def test_payload_data_come_after_what_gives_way_and_promise_nothing_alone(tmp_pa
     assert order.tasks[2].needs.endswith("by steps 1 and 2")
     subject = Subject(case.verdict)
     subject.__dict__.update(order=order, worth=worth)
-    _write_work_order(subject, tmp_path)
+    write_work_order(subject, tmp_path)
     (step,) = re.findall(r"The payload is not as stated.*?</li>", (tmp_path / "work-order.html").read_text(), re.DOTALL)
     assert "after 1 to 3 (by itself it changes nothing" in step
     assert "if this alone is done" not in step

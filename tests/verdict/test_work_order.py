@@ -5,13 +5,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
-from armscope.report.pages.diagnosis import write_report
+from armscope.report.pages.diagnosis import steps_of_rows, write_report, write_work_order
 from armscope.report.sections import locations
 from armscope.report.sections import work_order as section
+from armscope.report.subject import Subject
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import as_entered, corrected_rows, zero_offsets
@@ -21,8 +23,8 @@ from armscope.verdict.filenames import FILES
 from armscope.verdict.files import write_verdict
 from armscope.verdict.importance import expected
 from armscope.verdict.schema import ANOTHER_MODEL, HeldOut, Notice
-from armscope.verdict.tasks import task_of
-from armscope.verdict.work_order import beside_scatter, work_order
+from armscope.verdict.tasks import Task, task_of
+from armscope.verdict.work_order import WorkOrder, beside_scatter, work_order
 from tests.physics.test_cure import World
 from tests.report import verdicts
 from tests.verdict.test_contributions import missed, verdict, world  # noqa: F401  (fixtures)
@@ -233,3 +235,27 @@ def test_a_drive_whose_joint_scatters_is_left_alone_until_that_is_settled() -> N
         task = task_of(case.verdict.model.scene(case.recordings), repair, ratio)
         told = beside_scatter(task, case.verdict)
         assert told.unless.startswith("Settle first why joint 2 scatters") == said
+
+
+def test_rows_that_the_calibration_finds_are_not_to_be_entered_besides(tmp_path: Path) -> None:
+    """Seen: "change nothing there besides" in a step, and "Enter all of them together" under these rows."""
+    link = verdicts.found("link_geometry", "link 2", Parameter("a", "mm", 0.5, 0.01))
+    case = verdicts.case(effects=(link,))
+    step = Task(
+        "Small errors", "whole arm", "calibration", "", "Calibrate.", "", "", members=("link_geometry at link 2",)
+    )
+    zero, own = replace(step, change="mastering", members=()), replace(step, change="D-H row")
+    rows = corrected_rows(case.verdict)
+    assert rows is not None
+    by_calibration, by_itself = WorkOrder((zero, step), ()), WorkOrder((own,), ())
+    assert steps_of_rows(rows, by_calibration)[1] == "by the calibration of step 2, not besides"
+    assert steps_of_rows(rows, by_itself)[1] == "step 1"
+    assert not any(step for row, step in enumerate(steps_of_rows(rows, by_calibration)) if row != 1)
+    for order, told in ((by_calibration, True), (by_itself, False)):
+        subject = Subject(case.verdict)
+        subject.__dict__["order"] = order
+        write_work_order(subject, tmp_path)
+        page = (tmp_path / "work-order.html").read_text(encoding="utf-8")
+        assert ("enter those that it finds, not these" in page) == told
+        assert ("Enter all of them together" in page) != told
+        assert pd.read_csv(tmp_path / "corrected_dh.csv")["step"].dropna().tolist() == [steps_of_rows(rows, order)[1]]

@@ -60,11 +60,17 @@ def as_entered(zeros: pd.DataFrame) -> pd.DataFrame:
 def unsettled(verdict: Diagnosis) -> list[FoundEffect]:
     """Zeros and links that are but one reading of several: until that is settled nothing is entered for them."""
     entered = (JOINT_OFFSET.name, LINK_GEOMETRY.name)
-    return [each for each in verdict.effects if each.named_as != "effect" and each.effect in entered]
+    return [each for each in verdict.effects if each.effect in entered and _is_open(each, verdict)]
 
 
 def _settled(verdict: Diagnosis) -> list[FoundEffect]:
-    return [each for each in verdict.effects if each.named_as == "effect"]
+    return [each for each in verdict.effects if not _is_open(each, verdict)]
+
+
+def _is_open(effect: FoundEffect, verdict: Diagnosis) -> bool:
+    """Whether an effect is but one reading: without a name, or with one that the poses to measure next ask about."""
+    poses = verdict.next_poses
+    return effect.named_as != "effect" or (poses is not None and poses.ask_about(effect))
 
 
 def wrongly_stated(verdict: Diagnosis) -> bool:

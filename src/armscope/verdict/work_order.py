@@ -65,6 +65,12 @@ class WorkOrder:
         by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
         return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
 
+    @property
+    def by_calibration(self) -> str:
+        """The step that fits zeros and rows afresh, as a number in a table tells it; "" where there is none."""
+        steps = (n for n, task in enumerate(self.tasks, start=1) if task.change == ALL_AT_ONCE[GEOMETRIC])
+        return next((f"by the calibration of step {n}, not besides" for n in steps), "")
+
     def step_of(self, member: str) -> str:
         """Where a number that stands in a table belongs, in words: an entry by itself may make the error larger.
 
@@ -78,7 +84,7 @@ class WorkOrder:
             if member not in task.members:
                 continue
             if task.change == ALL_AT_ONCE[GEOMETRIC]:
-                return f"by the calibration of step {number}, not besides"
+                return self.by_calibration
             if len(task.members) > 1:
                 others = places_in_words([each.partition(" at ")[2] for each in task.members if each != member])
                 return f"step {number}, only together with {others}"

@@ -37,7 +37,7 @@ from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.schema import ROWS_LEFT_OUT, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
-from armscope.verdict.wording import capitalised, millimetres, percent, places_in_words
+from armscope.verdict.wording import millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
 
 ANSWERS = {
@@ -63,19 +63,20 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
     """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``."""
     folder, subject = Path(folder), Subject(verdict)
     written = write_sections(SECTIONS, subject, "diagnosis", folder)
-    _write_work_order(subject, folder)
+    write_work_order(subject, folder)
     page = render_page("diagnosis.html.j2", **_head(verdict), sections=written)
     write_text(folder / REPORT, page)
     return folder / REPORT
 
 
-def _write_work_order(subject: Subject, folder: Path) -> None:
+def write_work_order(subject: Subject, folder: Path) -> None:
     """The work order as a page, and its numbers as tables."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
     named = zeros["cause"] == "named"
     steps = zeros["joint"].map(lambda joint: subject.order.step_of(f"{JOINT_OFFSET.name} at {joint}")).where(named, "")
     zeros = zeros.assign(step="" if another_model(verdict) else steps)
+    rows = None if rows is None else rows.assign(step=steps_of_rows(rows, subject.order))
     write_table(folder / ZEROS, as_entered(zeros))
     either = {ROWS: rows, ORIGINS: corrected_origins(verdict)}
     corrected = {name: table for name, table in either.items() if table is not None}
@@ -85,7 +86,7 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         write_yaml(folder / UR, kinematics)
     dh = verdict.model.arm.description.dh
     another = another_model(verdict)
-    tasks = () if another else subject.order.tasks
+    tasks, by_calibration = () if another else subject.order.tasks, subject.order.by_calibration
     content = {
         **_about(verdict),
         "order": subject.order,
@@ -97,10 +98,10 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "differ": from_part_to_part(verdict),
         "background": percent(verdict.background.share),
-        "dh": corrected_cells(verdict),
+        "dh": [] if rows is None else [*zip(corrected_cells(verdict), rows["step"].tolist(), strict=True)],
+        "calibrated": "" if rows is None else next((s for s in rows["step"] if s and s == by_calibration), ""),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
-        "rows_with_others": _rows_with_others(subject.order),
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
         "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
@@ -109,11 +110,16 @@ def _write_work_order(subject: Subject, folder: Path) -> None:
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
 
-def _rows_with_others(order: WorkOrder) -> str:
-    """Which corrected rows make it worse without something else that is set in the same step."""
-    rows = {m: order.step_of(m) for task in order.tasks for m in task.members if m.startswith(LINK_GEOMETRY.name)}
-    told = [f"{member.partition(' at ')[2]}: {step}" for member, step in rows.items() if "only together" in step]
-    return f"{capitalised('; '.join(told))}." if told else ""
+def steps_of_rows(rows: pd.DataFrame, order: WorkOrder) -> list[str]:
+    """By D-H row, the step in which it is corrected, and what it must not be done without; "" where it stays.
+
+    Args:
+        rows: stated and corrected.
+        order: of the same verdict.
+    """
+    changed = rows.filter(like="correction_").any(axis=1)
+    steps = [order.step_of(f"{LINK_GEOMETRY.name} at link {row}") for row in rows["row"]]
+    return [step if changes else "" for step, changes in zip(steps, changed, strict=True)]
 
 
 def _has_curves(verdict: Diagnosis) -> bool:
