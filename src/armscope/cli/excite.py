@@ -11,6 +11,7 @@ import typer
 
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
+from armscope.poses.exciting.constants import MOTION
 
 if TYPE_CHECKING:
     from armscope.poses.exciting.search import Excitation
@@ -31,17 +32,19 @@ def excite(
     separate: Annotated[
         Path | None, typer.Option(help="verdict.json: plan a motion that tells its causes from their alternatives")
     ] = None,
-    period_s: Annotated[float, typer.Option(min=0.5, help="the motion repeats after this time")] = 20.0,
+    period_s: Annotated[float, typer.Option(min=0.5, help="the motion repeats after this time")] = MOTION.period_s,
     harmonics: Annotated[
         int, typer.Option(min=2, max=50, help="number of harmonics; the highest frequency is harmonics / period")
-    ] = 5,
-    rate_hz: Annotated[float, typer.Option(min=1, help="samples per second of the table")] = 100.0,
+    ] = MOTION.harmonics,
+    rate_hz: Annotated[float, typer.Option(min=1, help="samples per second of the table")] = MOTION.rate_hz,
     floor_mm: Annotated[float | None, typer.Option(help="height of the floor in the base frame")] = None,
     radius_mm: Annotated[
         float | None,
         typer.Option(min=0, help="radius of the links; if left out, the URDF's shapes, or 4 % of the reach"),
     ] = None,
-    rounds: Annotated[int, typer.Option(min=0, help="how many rounds improve the best of 24 random motions")] = 600,
+    rounds: Annotated[
+        int, typer.Option(min=0, help=f"how many rounds improve the best of {MOTION.starts} random motions")
+    ] = MOTION.rounds,
     seed: Annotated[int, typer.Option(min=0, help="seed of the search")] = 0,
 ) -> None:
     """Plan a motion of turning joints that shows masses and friction best, in all limits, clear of floor and arm."""
@@ -71,9 +74,8 @@ def excite(
     pairs = () if separate is None else pairs_of(separate, arm)
     radius, floor = (None if each is None else each * 1e-3 for each in (radius_mm, floor_mm))
     around = Surroundings(radius, floor)
-    found = find(
-        arm, MotionRequest(period_s, harmonics, rounds, seed, pairs), around, _told if sys.stderr.isatty() else None
-    )
+    wanted = MotionRequest(period_s, harmonics, rounds, seed, pairs, rate_hz)
+    found = find(arm, wanted, around, _told if sys.stderr.isatty() else None)
     write_excitation(output, found, rate_hz)
     if not is_stream(output):
         figure = motion_figure(found, trajectory_table(found, rate_hz))

@@ -81,7 +81,18 @@ class MotionSearch(Constants):
         20.0, "after which a motion repeats, where none is asked for", "judgement: a minute records three", unit="s"
     )
     harmonics: int = constant(5, "of it", "judgement: up to 0.25 Hz in 20 s, which arms follow")
-    rounds: int = constant(400, "of bettering", "judgement: time", unit="rounds")
+    rate_hz: float = constant(
+        100.0, "samples per second of the table, where none is asked for", "judgement: controllers take that", unit="Hz"
+    )
+    rounds: int = constant(600, "of bettering", "judgement: time", unit="rounds")
+    looked_at: int = constant(
+        2500,
+        "samples of the table, spread evenly, that are kept clear while a motion is bettered; the one that is told is "
+        "seen in all of them",
+        "judgement: time; more than the usual table has",
+        unit="samples",
+    )
+    at_once: int = constant(20_000, "samples that are looked at together", "judgement: memory", unit="samples")
     samples: int = constant(80, "of a motion while it is looked for", "judgement: time", unit="samples")
     per_wave: int = constant(
         8, "of its shortest wave at least", "derived: a peak is met to 8 % at worst", unit="samples"

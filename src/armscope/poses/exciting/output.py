@@ -14,7 +14,7 @@ from armscope.core.streams import is_stream
 from armscope.poses.body import collision_shapes
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
-from armscope.poses.exciting.search import Excitation
+from armscope.poses.exciting.search import Excitation, times_of_table
 from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -22,7 +22,7 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 def trajectory_table(found: Excitation, rate: float) -> pd.DataFrame:
     """time_s, q1_rad ..., dq1_rad_s ..., ddq1_rad_s2 ..., and the stated model's torques tau1_nm ..., over a period."""
-    time = np.arange(round(found.path.period * rate) + 1) / rate
+    time = times_of_table(found.path.period, rate)
     angle, speed, acceleration = found.path.at(time)
     numbers = np.concatenate([inertial_parameters(found.arm.model), stated_friction(found.arm)])
     torque = all_columns(found.arm, Motion(angle, speed, acceleration, 1 / rate)) @ numbers

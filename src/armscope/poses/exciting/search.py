@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.inputs import InputError
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
@@ -61,13 +62,28 @@ class Excitation:
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What motion is wanted: seconds of its period, harmonics, rounds of bettering, seed, causes to tell apart."""
+    """What motion is wanted.
+
+    Attributes:
+        period: s.
+        harmonics: of it.
+        rounds: of bettering.
+        seed: of the search.
+        pairs: causes to tell apart.
+        rate: samples per second of the table, all of which keep clear.
+    """
 
     period: float = MOTION.period_s
     harmonics: int = MOTION.harmonics
     rounds: int = MOTION.rounds
     seed: int = 0
     pairs: tuple[Pair, ...] = ()
+    rate: float = MOTION.rate_hz
+
+
+def times_of_table(period: float, rate: float) -> Array:
+    """(N,) s of the samples of a table: one period with both its ends."""
+    return np.arange(round(period * rate) + 1) / rate
 
 
 def excite(
@@ -129,15 +145,17 @@ def _bettered(
     order = np.argsort([each.value for each in scores])
     before = scores[int(order[(len(order) - 1) // 2])]
     path, best = found[int(order[-1])], scores[int(order[-1])]
-    rounds = search.wanted.rounds
+    steps, rounds = [(path, best)], search.wanted.rounds
     for number in range(rounds):
         step = MOTION.narrowing * (1 - number / rounds) + MOTION.least_step
         tried = _moved(path, step, rng).resting().fitted(search.limits.path, MOTION.uses[0], most)
         worth = search.score(tried)
         if worth.value > best.value and search.possible(tried):
             path, best = tried, worth
+            steps.append((path, best))
         if progress is not None:
             progress(number + 1, rounds)
+    path, best = next(step for step in reversed(steps) if step is steps[0] or search.clear(step[0]))
     return path, before, best
 
 
@@ -172,17 +190,33 @@ class _Search:
         beyond = np.any(np.abs(self.torques(path)) > MOTION.torque_use * self.limits.torque, axis=0)
         reasons = [f"goes beyond the torque of joint {j + 1}" for j in np.flatnonzero(beyond)]
         if not reasons:
-            angle, _, _ = path.over_period()
-            reasons = [str(reason) for reason in np.unique(refusals(self.arm, angle, self.around)) if reason]
+            reasons = self.in_the_way(path.over_period()[0])
+        if not reasons:
+            time = times_of_table(path.period, self.wanted.rate)
+            reasons = self.in_the_way(path.at(time[spread_evenly(len(time), MOTION.looked_at)])[0])
         self.refused += bool(reasons)
         self.why.update(reasons)
         return not reasons
+
+    def clear(self, path: FourierPath) -> bool:
+        """Whether every sample of the table keeps clear of floor, arm and joint limits."""
+        time = times_of_table(path.period, self.wanted.rate)
+        few = len(time) <= MOTION.looked_at  # all of these were seen
+        pieces = [] if few else np.array_split(time, -(-len(time) // MOTION.at_once))
+        return not any(self.in_the_way(path.at(piece)[0]) for piece in pieces)
+
+    def in_the_way(self, angle: Array) -> list[str]:
+        """What poses (N, m) rad meet or go beyond."""
+        low, high = self.limits.path.angle.T
+        beyond = np.flatnonzero(np.any((angle < low) | (angle > high), axis=0))
+        met = np.unique(refusals(self.arm, angle, self.around))
+        return [f"goes beyond the limits of joint {j + 1}" for j in beyond] + [str(reason) for reason in met if reason]
 
     def allowed(self, path: FourierPath) -> FourierPath | None:
         """The motion, made smaller where it must be."""
         for use in MOTION.uses:
             smaller = path.fitted(self.limits.path, use)
-            if self.possible(smaller):
+            if self.possible(smaller) and self.clear(smaller):
                 return smaller
         return None
 
@@ -203,7 +237,7 @@ class _Search:
             for share in MOTION.smaller:
                 small = replace(path, centre=pose, sine=share * path.sine, cosine=share * path.cosine)
                 small = small.fitted(self.limits.path, MOTION.uses[0], 1.0)
-                if self.possible(small):
+                if self.possible(small) and self.clear(small):
                     found.append(small)
                     break
         if not found:
