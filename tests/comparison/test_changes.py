@@ -10,7 +10,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.comparison import compare
+from armscope.comparison.changes import _kind
 from armscope.comparison.constants import COMPARING
+from armscope.comparison.result import Valued
 from armscope.core.inputs import InputError
 from armscope.recordings import as_recordings
 from armscope.robot import chain, load_arm
@@ -236,3 +238,17 @@ def test_a_zero_that_moved_as_far_as_would_be_seen_is_named_and_one_of_half_the_
     assert named[0.5] <= most
     hidden = {each.location for each in seen if not np.isfinite(each.least_rad)}
     assert hidden == {"joint 1", "joint 6"}, "the base turns as joint 1 does, and the tool as the last one"
+
+
+def test_a_wave_of_which_nothing_sure_is_left_went_though_one_of_its_numbers_stands_out() -> None:
+    """Seen: cosine −1.8 ± 3.4 and sine 14.8 ± 7.4 µrad of a wave that was taken out, told as "shrank"."""
+
+    def number(name: str, values: tuple[float, float], stderrs: tuple[float, float]) -> Valued:
+        gone = values[1] - values[0]
+        return Valued(name, "rad", values, stderrs, (0.0, gone), (0.0, 1e-6), gone, (gone - 2e-6, gone + 2e-6))
+
+    inside, outside = np.array([False, True]), np.array([True, False])
+    cosine, sine = (1.98e-4, -1.8e-6), (3.01e-4, 1.479e-5)
+    wave = [number("cosine_1", cosine, (2.9e-6, 3.4e-6)), number("sine_1", sine, (7.5e-6, 7.42e-6))]
+    assert _kind(wave, inside, outside) == "went"
+    assert _kind([number("sine_1", (3.01e-4, 8e-5), (7.5e-6, 7.42e-6))], inside, outside) == "shrank"

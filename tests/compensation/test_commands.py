@@ -75,7 +75,7 @@ def test_a_partly_impossible_path_keeps_its_rows_and_gives_no_job(tmp_path):
     table_of(wanted, id=[f"p{n}" for n in range(10)]).to_csv(tmp_path / "path.csv", index=False)
     done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv")
     assert done.exit_code == 3
-    assert "refused: row 5: beyond reach" in done.output
+    assert "refused: line 5 of the file: beyond reach" in done.output
     table = pd.read_csv(tmp_path / "a.csv")
     assert len(table) == 10
     assert table.loc[3, ["id", "status"]].tolist() == ["p3", "refused"]
@@ -254,3 +254,17 @@ def test_a_model_that_is_worse_than_base_and_tool_alone_is_warned_of(tmp_path):
     assert done.exit_code == 0, done.output
     assert "base and tool alone leave" in done.stderr
     assert "it makes the arm worse. Give --register." in done.stderr
+
+
+def test_commands_say_for_which_load_temperature_and_side_they_are(tmp_path):
+    save_error_model(tmp_path / "m.json", black_box())
+    sides = {f"approach{j}": [1, -1, 1] for j in range(1, 7)} | {
+        "payload_kg": [0.0, 2.0, 4.0],
+        "temperature_c": [20.0, 21.0, 22.0],
+    }
+    table_of(wanted_points(3), **sides).to_csv(tmp_path / "path.csv", index=False)
+    done = run("compensate", tmp_path / "m.json", tmp_path / "path.csv", "-o", tmp_path / "a.csv")
+    assert done.exit_code == 0, done.output
+    table = pd.read_csv(tmp_path / "a.csv")
+    for name, values in sides.items():
+        assert table[name].tolist() == values

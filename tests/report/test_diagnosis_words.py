@@ -1,4 +1,6 @@
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -6,8 +8,10 @@ import pytest
 from armscope.physics.registry import EFFECTS
 from armscope.report.figures.arm import location_shares
 from armscope.report.html import unbroken
+from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.effect_cards import card
 from armscope.verdict.effects import Curve, Parameter
+from armscope.verdict.schema import Unexplained
 from armscope.verdict.sentences import exact_phrase
 from armscope.verdict.wording import reach
 from tests.report import verdicts
@@ -119,3 +123,23 @@ def test_a_joint_that_turns_against_its_load_is_not_told_to_give_way():
     )
     told = exact_phrase(found("joint_compliance", "joint 2", against))
     assert told == "joint 2 turns against gravity's pull, as no spring does, by 0.32 µrad per N m"
+
+
+def test_scatter_is_no_curve_and_asks_for_what_its_card_asks_for(tmp_path: Path) -> None:
+    """Seen: "the curve of joint 5 that follows the nothing in the table", and "No further measurement is needed"."""
+    nothing = "nothing in the table"
+    scatter = verdicts.unknown_curve(
+        "joint 4", curve=None, driver=nothing, title=f"scatter at joint 4 that follows {nothing}",
+        parameters=(Parameter("scatter", "rad", 3e-4, 1e-5),),
+    )  # fmt: skip
+    case = verdicts.case(effects=(scatter,), answer="partly explained")
+    left = Unexplained(
+        True, "joint 4", "nothing in the table", 0.05, "scatter at joint 4 that follows nothing in the table"
+    )
+    verdict = replace(case.verdict, unexplained=left, next_poses=None)
+    page = re.sub(r"<[^>]*>", "", write_report(verdict, tmp_path).read_text(encoding="utf-8"))
+    words = " ".join(page.split())
+    assert "is the scatter at joint 4, which follows nothing in the table" in words
+    assert "follows the nothing" not in words
+    assert "No further measurement is needed" not in words
+    assert "what was found at joint 4 has no known cause: record what the card there asks for" in words

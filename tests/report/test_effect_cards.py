@@ -6,6 +6,7 @@ import pytest
 
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.wording import evidence_in_words
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found
 
@@ -69,3 +70,11 @@ def test_a_rival_that_fits_alike_is_too_close_although_its_size_costs_it_evidenc
     assert [other.too_close for other in shown] == [True, False]
     assert "only because of its prior" in shown[0].gap
     assert shown[1].gap == "5.2 nats worse"
+
+
+def test_the_weaker_of_evidence_and_choice_decides_what_a_card_calls_the_evidence() -> None:
+    """Seen: "Overwhelming evidence" beside "Chosen in 60 % of the resampled data sets"."""
+    assert evidence_in_words(37.0, 0.6).startswith("some evidence: odds far beyond a thousand to 1 on these rows, but")
+    assert evidence_in_words(37.0, 0.97).startswith("overwhelming evidence")
+    assert evidence_in_words(37.0).startswith("overwhelming evidence")
+    assert card(verdicts.compliance(inclusion=0.6, evidence_nats=37.0), 1).evidence_words.startswith("some evidence")

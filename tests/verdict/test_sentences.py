@@ -172,3 +172,11 @@ def test_a_drift_that_follows_the_rows_is_not_told_per_hour():
     drift = found("base_drift", "base", *told, driver="order of rows, with a pause before row 56")
     said = headline(verdicts.case(effects=(drift,)).verdict)
     assert said.startswith("The base drifts by 0.17 mm per 1000 rows, with a pause before row 56")
+
+
+def test_a_share_above_the_whole_is_told_as_what_others_cancel() -> None:
+    """Seen: "over 100 % of the squared error"."""
+    case = verdicts.case(effects=(verdicts.compliance(share=1.6),))
+    told = headline(case.verdict)
+    assert "– more than the whole squared error, as others cancel a part of it" in told
+    assert "over 100 %" not in told

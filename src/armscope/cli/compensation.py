@@ -243,8 +243,8 @@ def _tell(result: Compensated) -> None:
     for cause in told[:MOST_CAUSES]:
         rows = refused[causes == cause]
         reason = result.reasons[rows[0]] if len(set(result.reasons[rows])) == 1 else cause
-        which = f"row {rows[0] + 2}" if len(rows) == 1 else f"{len(rows)} rows ({_ranges(rows + 2)})"
-        print(f"refused: {which}: {reason}")
+        which = f"line {rows[0] + 2}" if len(rows) == 1 else f"{len(rows)} rows, lines {_ranges(rows + 2)}"
+        print(f"refused: {which} of the file: {reason}")
     if len(told) > MOST_CAUSES:
         print(f"refused for {len(told) - MOST_CAUSES} more reasons: the table says which")
 
@@ -255,7 +255,7 @@ def _or_less(value: float, digits: int = 2) -> str:
 
 
 def _ranges(rows: NDArray[np.intp]) -> str:
-    """Rows of a file, whose heading is the first, as "2-6, 9, ..."."""
+    """Lines of a file, whose heading is the first, as "2-6, 9, ..."."""
     import numpy as np
 
     pieces = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)

@@ -225,6 +225,16 @@ def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, f
     return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval)
 
 
+def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> bool:
+    """Whether zero is outside the joint 95 % region of all numbers of a change, taken as independent."""
+    from scipy.stats import chi2  # takes long to import: only where something changed
+
+    values, errors = (np.array([getattr(each, name) for each in parameters]) for name in ("values", "stderrs"))
+    means = np.mean(values[:, where], axis=1)
+    spread = np.sqrt(np.mean(errors[:, where] ** 2, axis=1))
+    return bool(np.sum((means / np.maximum(spread, 1e-300)) ** 2) > chi2.ppf(0.95, len(parameters)))
+
+
 def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
     """What became of the parameter that changed most surely."""
     surest = max(parameters, key=lambda each: abs(each.difference) / (each.interval_95[1] - each.interval_95[0]))
@@ -232,6 +242,7 @@ def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDAr
     before, after = np.mean(values[outside]), np.mean(values[inside])
     was = abs(before) > INTERVAL * np.sqrt(np.mean(errors[outside] ** 2))
     is_now = abs(after) > INTERVAL * np.sqrt(np.mean(errors[inside] ** 2))
+    is_now = is_now and _together_there(parameters, inside)  # one number of several stands out by chance
     more = abs(after) > abs(before)
     if was != is_now and is_now == more:
         return "came" if is_now else "went"

@@ -40,6 +40,15 @@ class WantedPath:
     def __len__(self) -> int:
         return len(self.table)
 
+    @property
+    def context(self) -> dict[str, Array]:
+        """(N,) columns of load, temperature and sides of approach, by name: what a command is for."""
+        table = self.table
+        sides = () if table.approach is None else table.approach.T
+        told = {"payload_kg": table.payload, "temperature_c": table.temperature}
+        told |= {f"approach{motor}": side for motor, side in enumerate(sides, start=1)}
+        return {name: values for name, values in told.items() if values is not None}
+
 
 def read_path(path: Path | str, arm: Arm) -> WantedPath:
     """Read a path table: x_mm, y_mm, z_mm (or _m), or q1_rad ... (or _deg), or both.

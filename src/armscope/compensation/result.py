@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
@@ -39,6 +40,7 @@ class Compensated:
         iterations: Newton steps of the row that took most.
         notes: what a user should know.
         turn_open: whether a turn of the tool on the flange, the same in all rows, is not known.
+        context: columns of the path's load, temperature and sides of approach, by name, where it has them.
     """
 
     arm: Arm
@@ -62,6 +64,7 @@ class Compensated:
     iterations: int
     notes: tuple[str, ...] = ()
     turn_open: bool = False
+    context: Mapping[str, Array] = field(default_factory=dict)
 
     @property
     def reached(self) -> NDArray[np.bool_]:
@@ -95,6 +98,8 @@ class Compensated:
             table["residual_mrad"] = self.residual_turn[rows] * 1e3
         table["outside_sd"] = self.outside[rows]
         table["nearest_sd"] = self.nearest[rows]
+        for name, values in self.context.items():
+            table[name] = values[rows]
         return table
 
     def require_all(self, source: object) -> Array:

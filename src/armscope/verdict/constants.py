@@ -112,6 +112,16 @@ class WordingRules(Constants):
     reliable: float = constant(
         0.5, "share of resampled tables below which an effect that is chosen is not to be relied on", "convention: most"
     )
+    nearly_always: float = constant(
+        0.8,
+        "share of resampled tables below which the evidence of one table is told as some, however large its odds",
+        "judgement: one table in five says otherwise",
+    )
+    more_than_all: float = constant(
+        1.05,
+        "share of the squared error above which a cause is more than all of it: others cancel a part",
+        "judgement: less is rounding",
+    )
     steady: float = constant(
         0.02, "share of its size below which a motion's range is told as one number", "judgement: two digits"
     )

@@ -58,10 +58,17 @@ def headline(verdict: Diagnosis) -> str:
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
-    clauses = [f"{c.text} – {percent(c.share)}{' of the squared error' * (c is told[0])}" for c in told]
+    clauses = [f"{c.text} – {_share_of_error(c.share, first=c is told[0])}" for c in told]
     first = max(1, sum(c.share > WORDS.told_first for c in told))
     rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
+
+
+def _share_of_error(share: float, first: bool) -> str:
+    """A cause's share in a headline; where others cancel a part of it, that, as no part is more than the whole."""
+    if share > WORDS.more_than_all:
+        return "more than the whole squared error, as others cancel a part of it"
+    return f"{percent(share)}{' of the squared error' * first}"
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:

@@ -208,12 +208,17 @@ def with_prefix(value: float, unit: str) -> str:
     return f"{value:.3g} {unit}"
 
 
-def evidence_in_words(nats: float) -> str:
-    """What a difference in log evidence means, after Kass & Raftery (1995), whose scale is twice the nats."""
+def evidence_in_words(nats: float, inclusion: float | None = None) -> str:
+    """What a difference in log evidence means, after Kass & Raftery (1995), whose scale is twice the nats.
+
+    Where less than nearly all tables of rows drawn anew choose it, too (``inclusion``), that decides.
+    """
     if nats < 1:
         return "hardly worth a mention"
     odds = f"odds of about {float(f'{math.exp(nats):.2g}'):.0f} to 1" if nats < 9 else "odds far beyond a thousand to 1"
     strength = "some" if nats < 3 else "strong" if nats < 5 else "very strong" if nats < 15 else "overwhelming"
+    if inclusion is not None and inclusion < WORDS.nearly_always:
+        strength, odds = "some", f"{odds} on these rows, but not whenever rows are drawn anew"
     return f"{strength} evidence: {odds}"
 
 
@@ -222,7 +227,7 @@ def percent(share: float) -> str:
     if not math.isfinite(share):
         return "–"
     value = 100 * share
-    if value > 105:
+    if share > WORDS.more_than_all:
         return "over 100 %"  # it and another nearly cancel: the number itself says nothing
     if 99.5 <= value < 100:
         return f"{min(value, 99.9):.1f} %"  # beside what remains, "100 %" would be read as all of it

@@ -25,7 +25,7 @@ from armscope.verdict.wording import capitalised, decimals_for, enumerated, mill
 
 PAGE, DATA, TABLE, FIGURE = "changes.html", "comparison.json", "history.csv", "history.png"
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
-LEFT_OPEN = "left open by these poses"
+LEFT_OPEN = "left open by these poses, unlike the difference"
 SMALLEST = 1e-6
 """Smaller probabilities are not told apart: no test's assumptions hold so far out."""
 MOST_LISTED = 4

@@ -92,7 +92,7 @@ def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool
         remark=remark_on(effect, len(shown), masses_stated),
         shape=effect.curve.description if effect.curve else "",
         evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
-        evidence_words=evidence_in_words(effect.evidence_nats),
+        evidence_words=evidence_in_words(effect.evidence_nats, effect.inclusion),
         alternatives=tuple(
             ShownAlternative(
                 effect_in_words(other.effect, other.location) + _followed(other),

@@ -12,11 +12,17 @@ from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import NextPoses
+from armscope.verdict.wording import places_in_words
 
 
 def _context(subject: Subject) -> dict[str, Any]:
     poses = subject.verdict.next_poses
-    return {**findings(subject.verdict), "next_poses": None if poses is None else _next_poses(poses)}
+    unknown = list(dict.fromkeys(each.location for each in subject.verdict.effects if each.nameless))
+    return {
+        **findings(subject.verdict),
+        "next_poses": None if poses is None else _next_poses(poses),
+        "without_cause": places_in_words(unknown),
+    }
 
 
 def _next_poses(poses: NextPoses) -> pd.DataFrame:

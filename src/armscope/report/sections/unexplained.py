@@ -13,7 +13,11 @@ from armscope.verdict.wording import millimetres
 
 def _context(subject: Subject) -> dict[str, Any]:
     verdict = subject.verdict
-    return {"left_is_told": _left_is_told(verdict), "unexplained_rms": millimetres(verdict.unexplained.rms_mm)}
+    return {
+        "left_is_told": _left_is_told(verdict),
+        "scatter": _scatters(verdict),
+        "unexplained_rms": millimetres(verdict.unexplained.rms_mm),
+    }
 
 
 def _left_is_told(verdict: Verdict) -> str:
@@ -23,6 +27,12 @@ def _left_is_told(verdict: Verdict) -> str:
         if left.present and effect.nameless and effect.location == left.location:
             return card(effect, number).anchor
     return ""
+
+
+def _scatters(verdict: Verdict) -> bool:
+    """Whether what is left is scatter, which has no curve."""
+    there = [each for each in verdict.effects if each.location == verdict.unexplained.location]
+    return any(number.name == "scatter" for effect in there for number in effect.parameters)
 
 
 UNEXPLAINED = Section("unexplained", "What is left", "What is left", _context, folded=True)
