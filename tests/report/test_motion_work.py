@@ -38,10 +38,9 @@ def test_a_step_that_puts_a_wrist_right_says_so_though_the_whole_arm_hardly_show
 
 def test_what_was_fitted_along_is_no_step_of_its_own_where_it_pays_nothing() -> None:
     """ "80 % after this" was promised of 80 %: what counted was a turned sign, which came after."""
-    before = Entered(0.797, (0.8,))
-    assert pays(before, Entered(0.7, (0.8,)))
-    assert not pays(before, Entered(0.796, (0.8,)))
-    assert not pays(before, Entered(0.868, (0.8,)))
+    assert pays(0.797, 0.7)
+    assert not pays(0.797, 0.796)
+    assert not pays(0.797, 0.868)
 
 
 def test_a_turned_current_is_told_as_that_on_page_and_order(tmp_path: Path) -> None:

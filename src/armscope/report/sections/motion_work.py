@@ -62,7 +62,7 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     minor = [each for each in verdict.effects if each.minor]
     told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses.whole))
     apart = along and not any(_is_in_bodies(each) for each in told)
-    apart = apart and (not told or pays(background, with_masses))
+    apart = apart and (not told or pays(*(step.held_out for step in verdict.waterfall[:2])))
     tasks = []
     for number, cause in enumerate(told, start=1):
         card = motion_card(cause, number)
@@ -112,9 +112,9 @@ def where_it_shows(before: Entered, after: Entered) -> str:
     return f" (joint {joint + 1} alone: {now} before, {then} then)"
 
 
-def pays(before: Entered, after: Entered) -> bool:
+def pays(before: float, after: float) -> bool:
     """Whether a step leaves less, in the figures that are told: one that does not is no step of its own."""
-    return after.whole < before.whole and error_in_words(after.whole) != error_in_words(before.whole)
+    return after < before and error_in_words(after) != error_in_words(before)
 
 
 def fitted_along_matters(subject: MotionSubject) -> bool:
