@@ -122,7 +122,7 @@ class PathTask:
             self.options.pose,
             iterations,
             (note,) if note else (),
-            self.path.context,
+            context=self.path.context,
         )
 
     def _held(self) -> dict[int, float]:

@@ -30,6 +30,7 @@ from armscope.motion.library.linkage import BETWEEN_LINKS, pushes_one_way
 from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
+from armscope.motion.summary.in_proportion import rather_in_proportion
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -59,7 +60,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         alone = _alone(again, kept)
         others = number + 1 < CONSISTENCY.judged and _foretells_more(again, alone.best)
         selected = at_own_gain(again if others else alone)
-    return _told_apart(selected, rate)
+    return _told_apart(rather_in_proportion(selected), rate)
 
 
 def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
