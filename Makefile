@@ -39,7 +39,7 @@ checked:
 	$(BIN)/mypy
 
 small-run:
-	$(BIN)/snakemake -j2 all poses --configfile config/small.yaml --forceall
+	$(BIN)/snakemake -j2 all results/small/poses/seven_axis.csv --configfile config/small.yaml --forceall
 
 # about a second or more each, or a quick claim again on more seeds; those of real arms need their recordings beside the project
 test-long: .venv/installed-test

@@ -166,6 +166,7 @@ def test_bad_input_is_one_line_and_exit_code_2(tmp_path):
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.long
 def test_a_robot_may_be_named(tmp_path):
     line = f"poses -n 8 --candidates 30 --seeds 2 -o {tmp_path / 'poses.csv'} -r"
     named = CliRunner().invoke(app, [*line.split(), "puma560"])
@@ -187,6 +188,7 @@ def test_who_asks_for_help_or_the_version_gets_it_however_it_is_asked(words, tol
     assert not answer.stderr
 
 
+@pytest.mark.long
 def test_a_motion_is_planned_for_an_arm_given_either_way_and_not_for_none_or_two(tmp_path):
     robot = ["-r", str(ROBOT)]
     planned = CliRunner().invoke(app, ["excite", *robot, "--rounds", "0", "-o", str(tmp_path / "motion.csv")])
@@ -261,6 +263,7 @@ def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistake
     assert "Cannot tell" in result.stdout
 
 
+@pytest.mark.long
 def test_what_is_wrong_with_one_run_stands_in_the_verdict_too(tmp_path):
     table = pd.read_csv(EXAMPLE.parent / "clean" / "recordings.csv", dtype={"run": str})
     table.loc[table["run"] == "2", ["x_mm", "y_mm", "z_mm"]] /= 1000

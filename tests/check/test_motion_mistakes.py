@@ -59,6 +59,7 @@ def test_every_sign_that_is_turned_is_told_and_no_order(good: Motions) -> None:
             assert [each.split(" has the sign")[0] for each in told] == [f"problem tau{j}_nm" for j in joints]
 
 
+@pytest.mark.long
 def test_an_exchange_and_a_turned_sign_are_told_one_after_the_other_with_the_column_of_the_table(good: Motions) -> None:
     for one, other in combinations(range(5), 2):
         order = list(range(5))

@@ -101,6 +101,7 @@ def test_drives_are_told_alone_and_their_intervals_hold_whatever_the_masses(mass
     assert said == bool(masses.any())
 
 
+@pytest.mark.long
 def test_a_payload_wrong_by_a_factor_has_one_value_beside_the_drives(tmp_path: Path) -> None:
     arm = arm_named("six-axis")
     verdict = diagnose(arm, measured(arm, np.zeros(6), drives, 200, seed=12, payload=1.36), QUICK)

@@ -12,7 +12,7 @@ from tests.fuzz.__main__ import CASES, failure_of
 from tests.fuzz.mutation import ODD_VALUES, changed, places, text_of, tree_of
 from tests.fuzz.readers import READERS, ROOT
 
-FILES = 20
+FILES = 8
 """For each reader; `make fuzz` tries them for an hour."""
 MANY_PURPOSES = ("mapping.yaml", "config.yaml", "poses.csv")
 """Some of their seeds are good for other raw files, a part of a whole, or paths of points."""

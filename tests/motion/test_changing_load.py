@@ -95,6 +95,7 @@ def test_the_cure_done_as_worded_leaves_no_load_that_changes(picked_up: tuple[Wo
     assert again.held_out.background < 1.25 * diagnosed(never)[0].verdict.held_out.background
 
 
+@pytest.mark.long
 def test_no_mass_below_what_was_there_is_put_down(picked_up: tuple[World, MotionDiagnosis, Motions]) -> None:
     """The same selection on an arm whose last link, as it is stated, weighs less than what would have left it."""
     _, found, _ = picked_up

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from armscope.motion.check import check_motions
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
@@ -20,6 +21,7 @@ def cut_off(seed: int, share: float) -> Motions:
     return replace(good, effort=effort)
 
 
+@pytest.mark.long
 def test_a_channel_that_was_cut_off_is_told_and_names_nothing() -> None:
     """What was not recorded is no torque: neither a law of it nor something unknown."""
     for seed in (3, 4, 5):

@@ -74,6 +74,7 @@ def test_a_mount_is_known_as_far_as_half_a_nat_is_lost() -> None:
 
 
 @pytest.mark.parametrize("kind", ["taut", *(pytest.param(kind, marks=pytest.mark.long) for kind in ("harness", "end"))])
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(4, 1, 2))
 def test_a_cable_stays_a_cable(kind: str, seed: int) -> None:
     world, found = asked(kind, 3 + seed % 4, seed)

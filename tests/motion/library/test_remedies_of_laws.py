@@ -175,6 +175,8 @@ AGAIN = (
     "rubs with the sum",
     "turns with the sum",
     "coil spring",
+    "turns with the difference",
+    "curve of speed",
 )
 """Like another's card: with the difference, a sign has to be read as well; "spring" is a mount, too."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations, pairwise
 
 import numpy as np
+import pytest
 
 from armscope.core.types import Array
 from armscope.poses.exciting.output import trajectory_table
@@ -91,6 +92,7 @@ def test_every_sample_of_the_table_keeps_clear() -> None:
             assert between(body[one], body[other]).min() >= 2 * RADIUS
 
 
+@pytest.mark.long
 def test_a_table_of_more_samples_than_are_looked_at_keeps_clear_too() -> None:
     arm = arm_of_ur10e()
     found = excite(arm, MotionRequest(rounds=40, rate=400.0), Surroundings(RADIUS, 0.0))
