@@ -188,18 +188,6 @@ def test_who_asks_for_help_or_the_version_gets_it_however_it_is_asked(words, tol
     assert not answer.stderr
 
 
-@pytest.mark.long
-def test_a_motion_is_planned_for_an_arm_given_either_way_and_not_for_none_or_two(tmp_path):
-    robot = ["-r", str(ROBOT)]
-    planned = CliRunner().invoke(app, ["excite", *robot, "--rounds", "0", "-o", str(tmp_path / "motion.csv")])
-    assert planned.exit_code == 0
-    assert (tmp_path / "motion.csv").is_file()
-    with pytest.raises(InputError, match="Leave one of them out"):
-        CliRunner().invoke(app, ["excite", str(ROBOT), *robot, "-o", str(tmp_path / "two.csv")], catch_exceptions=False)
-    with pytest.raises(InputError, match="found no arm"):
-        CliRunner().invoke(app, ["excite", "-o", str(tmp_path / "none.csv")], catch_exceptions=False)
-
-
 def test_help_says_how_to_start():
     text = CliRunner().invoke(app, ["--help"]).output
     assert "armscope diagnose recordings.csv --robot robot.yaml" in text
