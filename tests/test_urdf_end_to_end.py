@@ -133,6 +133,7 @@ def test_a_calibrated_urdf_stands_where_the_real_arm_does(robot):
     assert left[folder.name] > 5 * NOISE_MM
 
 
+@pytest.mark.long
 def test_commands_of_a_diagnosed_urdf_bring_the_real_arm_to_its_points(robot, monkeypatch):
     folder, real = robot.parent, Real(TORSO_ARM.read_text(), offset={"roll": 3e-3}, compliance={"lift": 4e-5})
     wanted = real.record(folder / "recordings.csv").head(20)

@@ -85,6 +85,7 @@ def test_bearings_softer_about_one_axis_make_nothing_else_look_wrong(arm_name: s
     assert verdict.noise_mm == pytest.approx(NOISE_MM, rel=0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("arm_name", "seed"), arms_and_seeds("four-axis", "six-axis", 1))
 def test_commands_against_what_gives_way_everywhere_take_the_arm_where_it_should_go(arm_name: str, seed: int) -> None:
     """The family's cure, as worded: commands computed from the model, at other poses, on the true arm."""

@@ -63,6 +63,7 @@ def test_the_verdict_is_that_of_passes_over_all_rows(verdicts: tuple[Diagnosis, 
         assert other.share == pytest.approx(one.share, abs=0.01)
 
 
+@pytest.mark.long
 def test_residuals_are_of_all_rows(verdicts: tuple[Diagnosis, Diagnosis, int]) -> None:
     exact, of_sums, _ = verdicts
     assert of_sums.residual_after_mm == pytest.approx(exact.residual_after_mm, rel=0.01)

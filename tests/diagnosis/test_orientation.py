@@ -217,6 +217,7 @@ def test_a_tool_that_turned_on_the_flange_in_between_is_found_with_its_row() -> 
     assert names(verdict) == {("joint_offset", "joint 3"), ("tool_shift", "tool")}
 
 
+@pytest.mark.long
 def test_held_out_orientations_become_as_good_as_their_noise(without_turns: Diagnosis) -> None:
     arm, table = oriented("four-axis", {("joint_offset", "joint 3"): [1e-3]})
     held_out = diagnose(arm, table, replace(QUICK, cross_validation=True)).held_out

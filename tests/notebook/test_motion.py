@@ -48,6 +48,7 @@ def test_it_writes_predicts_and_draws_what_the_command_does(found, tmp_path):
         found.plot("armm")
 
 
+@pytest.mark.long
 def test_it_is_checked_and_what_does_not_belong_to_it_is_told(found):
     assert not armscope.check(MOTIONS, ROBOT).has_problems
     with pytest.raises(InputError, match="resamples"):

@@ -38,6 +38,7 @@ def measured():
     return run, measure_run(arm(), rows, run)
 
 
+@pytest.mark.long
 def test_a_known_arm_is_predicted_to_its_noise(measured):
     run, found = measured
     shown = protocol_table(found.splits, run).set_index("model")["mean_mm"]

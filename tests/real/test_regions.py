@@ -54,5 +54,6 @@ def test_known_physics_holds_where_nobody_measured(found):
     assert (by_model["armscope"] > 0.7 * floor).all()
 
 
+@pytest.mark.long
 def test_the_median_is_of_the_distances_whose_rms_stands_beside_it(found):
     assert (found["median_mm"] < found["rms_mm"]).all()

@@ -53,6 +53,7 @@ def test_friction_that_falls_while_the_arm_runs_is_told_with_its_slope(stated: b
     assert any("as at the end of the model's own motion: thermal friction at joint 2" in note for note in notes)
 
 
+@pytest.mark.long
 def test_who_takes_off_what_the_card_says_has_the_friction_that_was_stated() -> None:
     """Minutes counted over the runs of the table, one after the other."""
     arm = robot(drives=[{"viscous_nm_s_rad": float(each)} for each in VISCOUS])

@@ -24,6 +24,7 @@ def test_a_stiffness_is_known_no_better_than_the_torque(found: MotionDiagnosis) 
     assert unsure.stderr[0] == pytest.approx(np.hypot(sure.stderr[0], 0.1 * sure.values[0]), rel=1e-6)
 
 
+@pytest.mark.long
 def test_what_a_link_does_counts_in_the_answer(found: MotionDiagnosis) -> None:
     side, torques = found.verdict.links[0], replace(found.verdict, answer="nothing missing", mismatch=False, links=())
     assert with_links(torques, [side]).answer == "explained"
@@ -35,6 +36,7 @@ def test_what_a_link_does_counts_in_the_answer(found: MotionDiagnosis) -> None:
     assert with_links(torques, [silent]).headline == torques.headline
 
 
+@pytest.mark.long
 def test_rivals_that_fall_far_short_are_not_listed(found: MotionDiagnosis) -> None:
     selected = found.twists[0].selected
     search, (effect, *_) = Search.on(selected.problem), selected.best.chosen
