@@ -59,6 +59,8 @@ def test_a_recording_of_which_more_is_left_is_told_with_its_joint(changes, tmp_p
     assert '"after" is left with 0.18 mm per axis whatever is fitted, "before" with 0.03 mm, as if joint 5' in said
     assert "by 300 µrad or more" in said
     assert "Nothing changed" not in said
+    assert ('as much is left of "after" as of "before"' in said) == ("6 times" in said) == (not changes)
+    assert "in which nothing changed look like this one" not in said
     assert json.loads((tmp_path / "comparison.json").read_text())["noisier"][0]["scatter"][0]["location"] == "joint 5"
 
 

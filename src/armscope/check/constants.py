@@ -257,9 +257,15 @@ class Leading(Constants):
     both_sides: float = constant(
         1.5, "between two rows' sides from which a joint is approached from both", "derived: sides are -1 and +1"
     )
+
+
+@dataclass(frozen=True)
+class PlainFit(Constants):
+    """How what joints turn by is fitted beside a plain arm's errors."""
+
     rank: float = constant(1e-9, "share of the largest, below which a direction is rounding", "judgement: far above it")
     apart: float = constant(
-        1e6, "condition beyond which joints always approach together", "judgement: a part in a thousand of each is left"
+        1e6, "condition beyond which joints are not told apart", "judgement: a part in a thousand of each is left"
     )
 
 
@@ -285,6 +291,7 @@ class Settling(Constants):
 
 TRIALS = TrialRules()
 SETTLING = Settling()
+PLAIN = PlainFit()
 LEADING = Leading()
 OTHER_ARMS = OtherArms()
 TABLE = TableRules()

@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.calibration.model import set_up
 from armscope.calibration.state import Posed, State
-from armscope.check.constants import LEADING
+from armscope.check.constants import PLAIN
 from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings
 from armscope.robot import Arm, position_jacobian
@@ -51,7 +51,7 @@ class PlainErrors:
         spanned, size, _ = np.linalg.svd(
             beside / np.maximum(np.linalg.norm(beside, axis=0), 1e-300), full_matrices=False
         )
-        self._spanned = spanned[:, size > LEADING.rank * size[0]]
+        self._spanned = spanned[:, size > PLAIN.rank * size[0]]
 
     def with_turns(self, motors: Indices, angles: Array) -> FittedTurns | None:
         """Motors that turn by something else as well: by how much of it.
@@ -70,8 +70,8 @@ class PlainErrors:
         whole = np.linalg.norm(own, axis=0)
         left, own = (each - self._spanned @ (self._spanned.T @ each) for each in (self._left, own))
         squares = own.T @ own
-        hidden = bool(np.any(LEADING.apart * squares.diagonal() < whole**2))
-        if hidden or np.linalg.cond(squares) > LEADING.apart:
+        hidden = bool(np.any(PLAIN.apart * squares.diagonal() < whole**2))
+        if hidden or np.linalg.cond(squares) > PLAIN.apart:
             return None
         found = np.linalg.solve(squares, own.T @ left)
         variance = float(np.sum((left - own @ found) ** 2)) / free

@@ -13,7 +13,7 @@ import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.constants import COMPARING, SHARED
-from armscope.comparison.noisier import told_of
+from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of, wave_part
 from armscope.core.files import write_json, write_table
@@ -132,9 +132,16 @@ def _tiles(found: Comparison) -> list[tuple[str, str, str]]:
         least = f"named is what chance gives in less than {100 * found.level:g} % of comparisons"
         chance = f"of comparisons in which nothing {'differs' if found.of_arms else 'changed'} look like this one"
         none = (f"none of {found.tried}", f"possible {what}s stands out", least)
-        return [none, (in_odds(found.p_nothing_changed), chance, "by the surest of them, all counted"), *tiles]
+        surest = (in_odds(found.p_nothing_changed), chance, "by the surest of them, all counted")
+        return [none, _more_is_left(found.noisier[0]) if found.noisier else surest, *tiles]
     named = (str(changes), counted, f"named where p is below {found.level:g}")
     return [named, (in_odds(found.p_nothing_changed), "is how often chance alone gives this", tried), *tiles]
+
+
+def _more_is_left(noisier: Noisier) -> tuple[str, str, str]:
+    """In the place of how likely it is that nothing changed, where no cause did and still one recording is unlike."""
+    times = f"{noisier.left_mm / noisier.usual_mm:.2g} times"
+    return times, f'as much is left of "{noisier.name}" as of "{noisier.than}"', "by the median row, each fitted alone"
 
 
 def recordings_table(found: Comparison) -> pd.DataFrame:
