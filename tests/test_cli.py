@@ -242,7 +242,7 @@ def test_a_diagnosis_of_mistaken_recordings_is_not_made_unless_asked_for(mistake
     assert not (tmp_path / "out" / "verdict.json").exists()
 
 
-@pytest.mark.parametrize("mistaken", MISTAKES, indirect=True)
+@pytest.mark.parametrize("mistaken", ONE_MISTAKE, indirect=True)
 def test_a_diagnosis_of_mistaken_recordings_says_what_is_wrong_with_them(mistaken, tmp_path):
     file, word = mistaken
     line = f"diagnose {file} -r {ROBOT} -o {tmp_path / 'out'} {QUICK} --anyway"

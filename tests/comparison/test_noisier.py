@@ -39,7 +39,7 @@ def bumpy(q: Array) -> Array:
     return 1.4 * SIZE * np.sin(9 * q + 2 * np.sin(2 * q))
 
 
-@pytest.mark.parametrize("rows", [70, 40])
+@pytest.mark.parametrize("rows", seeds(70, 40))
 @pytest.mark.parametrize("turn", seeds(scattering, bumpy))
 def test_a_joint_that_became_loose_is_told_though_no_cause_changed(turn: Callable[[Array], Array], rows: int) -> None:
     found = compare(ARM, {"before": session(61, rows), "after": loose(session(62, rows), turn)})

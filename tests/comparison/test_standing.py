@@ -21,6 +21,7 @@ def zero():
     return model, next(each for each in possible if str(each.placed) == "joint_offset at joint 3")
 
 
+@pytest.mark.long
 def test_what_was_planted_stands(zero):
     (change,) = compare(ARM, TABLES).changes
     assert stands(*zero, change, [zero[1]], 100)

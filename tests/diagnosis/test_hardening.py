@@ -89,6 +89,7 @@ def test_one_drive_that_is_far_softer_under_small_loads_is_told_by_its_joint(see
     assert "do not determine" not in rule
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_drive_that_gives_way_and_hardens_has_one_name(seed: int) -> None:
     """Its soft start is in the background then, and its compliance is as if there were none."""

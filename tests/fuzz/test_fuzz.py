@@ -114,7 +114,7 @@ BOMBS = {
 """Small files that would take all time or memory, made when they are asked for."""
 
 
-LATER = ("many numbers", "many rows", "sixties")
+LATER = ("many numbers", "many rows", "sixties", "short lines", "deep elements")
 """What takes no other way through a reader than many keys do, but for the rows of an arm."""
 
 

@@ -134,7 +134,7 @@ def test_a_load_that_comes_and_goes_is_one_cause_with_all_its_moments(seed: int)
     assert right, words
 
 
-@pytest.mark.parametrize("kind", ["none", "always"])
+@pytest.mark.parametrize("kind", seeds("none", "always"))
 @pytest.mark.parametrize("seed", seeds(8, 1, 2, 3, 5))
 def test_where_nothing_changes_nothing_is_said_to(kind: str, seed: int) -> None:
     world = World(kind, 3 + seed % 4, seed, by_points=seed % 2 == 0)

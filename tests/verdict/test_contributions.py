@@ -51,6 +51,7 @@ def missed(world: World, readings: np.ndarray) -> float:
     return 1e3 * float(np.sqrt(np.mean(least_squares(errors, np.zeros(9), x_scale="jac").fun ** 2)))
 
 
+@pytest.mark.long
 def test_the_parts_add_up_to_what_was_measured(verdict) -> None:
     worth = contributions(verdict)
     assert rms(worth.before) == pytest.approx(verdict.residual_before_mm, rel=1e-2)

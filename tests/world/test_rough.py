@@ -217,6 +217,7 @@ def test_a_cause_stands_out_of_what_is_everywhere_and_takes_the_place_of_its_lik
     assert cause["location"] not in {effect["location"] for effect in alike}
 
 
+@pytest.mark.long
 def test_a_rough_world_tells_what_is_rough_and_shows_none_of_it(built):
     truth, visible, test = built
     assert "parallelogram" not in visible

@@ -91,7 +91,9 @@ def _missing(arm):
 
 
 # real arms whose recordings are there; the others are skipped with a reason
+LEFT_OUT = set() if CONFIG.real_sets is None else {*CONFIG.real} - {*CONFIG.real_sets}
 SKIPPED = {name: f"{_missing(arm)} is not there" for name, arm in CONFIG.real.items() if _missing(arm)}
+SKIPPED |= dict.fromkeys(sorted(LEFT_OUT), "real_sets leaves it out")
 REAL = [name for name in CONFIG.real if name not in SKIPPED]
 for name, reason in SKIPPED.items():
     logger.warning(f"skipped: real arm {name}, because {reason}")

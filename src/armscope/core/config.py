@@ -200,6 +200,7 @@ class Config(Strict):
     recordings_dir: str = "../shared/recordings"
     paper: Paper
     real: dict[str, RealSet] = Field(default_factory=dict)
+    real_sets: tuple[str, ...] | None = Field(None, description="those of `real` that take part; null: all")
     sweep: str = "config/sweeps/default.csv"
     fleet: str = Field("config/fleet.csv", description="arms that `snakemake fleet` diagnoses")
     poses: PoseStudy

@@ -206,7 +206,10 @@ CASES = {
 }
 
 
-AGAIN = ("dry", "viscous", "offset", "load", "centre of the last", "payload", "delay", "centre", "inertia", "gravity")
+AGAIN = {
+    *("dry", "viscous", "offset", "load", "mass", "direction", "delay"),
+    *("centre", "centre of the last", "payload", "inertia", "gravity"),
+}
 """Cards like another's: as the rotor's, one more number of a drive; of an easier case; or a slow one."""
 
 

@@ -177,6 +177,8 @@ AGAIN = (
     "coil spring",
     "turns with the difference",
     "curve of speed",
+    "ripple",
+    "warm and dry",
 )
 """Like another's card: with the difference, a sign has to be read as well; "spring" is a mount, too."""
 

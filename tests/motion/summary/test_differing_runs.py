@@ -71,6 +71,7 @@ def test_what_differs_in_some_runs_is_told_at_its_joint(kind: str) -> None:
     assert found.verdict.headline.startswith("Something lasts that has no law here")
 
 
+@pytest.mark.long
 def test_what_is_the_same_in_all_runs_differs_in_none() -> None:
     found = diagnosed(1, lambda run, at, torque: 0.1 * torque)
     assert not differing_runs(found.selected)

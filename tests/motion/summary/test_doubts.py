@@ -54,6 +54,7 @@ def test_a_size_that_may_as_well_be_nothing_is_doubtful(gives_way: MotionDiagnos
     assert not doubts.may_be_nothing((Parameter("speed", "rad/s", 0.1, float("nan")),))
 
 
+@pytest.mark.long
 def test_a_size_whose_interval_is_nearly_as_wide_is_not_determined(gives_way: MotionDiagnosis) -> None:
     """Link 2 of a real arm was told to be 4.3 kg lighter than stated, known to 4.0."""
     told = [

@@ -42,6 +42,7 @@ def told_gain(motions: Motions, uncertainty: float) -> Parameter | None:
     return named[0].parameters[0] if named else None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
 def test_a_gain_beyond_what_is_stated_is_told(seed: int) -> None:
     found = told_gain(by_currents(seed, GAIN), 0.015)
