@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import stdtrit
+from scipy.special import chdtri, stdtrit
 
 from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
 from armscope.comparison.constants import COMPARING, SHARED
@@ -227,12 +227,10 @@ def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, f
 
 def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> bool:
     """Whether zero is outside the joint 95 % region of all numbers of a change, taken as independent."""
-    from scipy.stats import chi2  # takes long to import: only where something changed
-
     values, errors = (np.array([getattr(each, name) for each in parameters]) for name in ("values", "stderrs"))
     means = np.mean(values[:, where], axis=1)
     spread = np.sqrt(np.mean(errors[:, where] ** 2, axis=1))
-    return bool(np.sum((means / np.maximum(spread, 1e-300)) ** 2) > chi2.ppf(0.95, len(parameters)))
+    return bool(np.sum((means / np.maximum(spread, 1e-300)) ** 2) > chdtri(len(parameters), 0.05))
 
 
 def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2, norm
+from scipy.special import chdtri, ndtr
 
 from armscope.comparison.constants import COMPARING, GROWN
 from armscope.core.numerals import size_of
@@ -95,7 +95,7 @@ class LeftOver:
     def variance(self) -> float:
         """Per axis, mm^2, by the median of the rows' squared distances."""
         distances = np.median(np.sum(self.alone**2, axis=1))
-        return float(distances / chi2.median(3)) * self.alone.size / self.free
+        return float(distances / chdtri(3, 0.5)) * self.alone.size / self.free
 
 
 def noisier(
@@ -138,10 +138,11 @@ def by_chance(one: LeftOver, other: LeftOver, dispersion: float) -> float:
     Returns:
         The probability, one-sided.
     """
-    median = chi2.median(3)
-    per_row = 1 / (4 * (chi2.pdf(median, 3) * median) ** 2)
+    median = chdtri(3, 0.5)
+    density = np.sqrt(median / (2 * np.pi)) * np.exp(-median / 2)
+    per_row = 1 / (4 * (density * median) ** 2)
     variance = dispersion * per_row * (3 / one.free + 3 / other.free)
-    return float(norm.sf(np.log(one.variance / other.variance) / np.sqrt(variance)))
+    return float(ndtr(-np.log(one.variance / other.variance) / np.sqrt(variance)))
 
 
 def _grown(one: LeftOver, other: LeftOver) -> tuple[Scatter, ...]:
