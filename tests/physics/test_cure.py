@@ -62,6 +62,8 @@ PLANTED = {
     "base_shift": ("base_shift", "base"),
     "zero_shift": ("zero_shift", "joint 2"),
     "instrument_scale": ("instrument_scale", "instrument"),
+    "holder_sag": ("holder_sag", "tool"),
+    "loose_target": ("loose_target/xy", "tool"),
     "unknown": ("gear_ratio", "joint 3"),  # which a free curve of the joint's angle holds, too
 }
 """By effect: the world's kind and its place. Payload and tool, which worlds hide otherwise, have tests of their own."""

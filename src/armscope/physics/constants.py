@@ -106,6 +106,12 @@ class PlausibleSizes(Constants):
     beam_rad: float = constant(
         2e-3, "turn of a link's end under its largest load", "judgement: as a bearing", unit="rad"
     )
+    loose_target_m: float = constant(
+        5e-4,
+        "by which a target moves on the tool under its own weight",
+        "judgement: the clearance of a nest; a magnet that slides; a bracket that bends",
+        unit="m",
+    )
     delay_s: float = constant(0.05, "between command and motion", "judgement: some cycles of a controller", unit="s")
     expansion_per_k: float = constant(
         30e-6, "growth of a link", "convention: steel 11-12, aluminium 23-24 millionths per kelvin", unit="1/K"
@@ -196,6 +202,11 @@ class FormRules(Constants):
         0.05,
         "of a moment across a bearing that must change from row to row, to show that the bearing tilts under it",
         "judgement: below, what changes is less than noise beside all but the largest tilts",
+    )
+    level_nest: float = constant(
+        0.1,
+        "share of a target's weight along the bottom of its nest, under which it mostly slides to the lower side",
+        "judgement: the friction of polished steel, 0.1 to 0.2",
     )
     rocker_step_deg: float = constant(
         3.0,

@@ -10,6 +10,7 @@ import functools
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.physics.constants import FORM
 from armscope.physics.linkage_drivers import BARS
 from armscope.physics.load_drivers import LOADS
 from armscope.physics.loaded_arm import LoadedArm
@@ -84,6 +85,19 @@ def _quadrupole(number: int) -> Array:
     return np.asarray(np.diag(diagonal))
 
 
+def _pull(scene: LoadedArm, axis: int) -> Array:
+    """Share of a weight that pulls along an axis of the tool, -1 to 1."""
+    down = scene.arm.gravity / np.linalg.norm(scene.arm.gravity)
+    return np.asarray(scene.nominal.tool_rotation[:, :, axis] @ down)
+
+
+def _side(scene: LoadedArm, axis: int, other_axis: int | None = None) -> Array:
+    """How far something that slides along one axis of the tool, or in the plane of two, lies to the lower side."""
+    pull = _pull(scene, axis)
+    across = 0.0 if other_axis is None else _pull(scene, other_axis)
+    return np.asarray(pull / np.sqrt(pull**2 + across**2 + FORM.level_nest**2))
+
+
 def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:
     """Side of approach where the joint stands near ``centre`` (a cubic spline of its angle)."""
     return side_of_approach(scene, j) * cubic_spline(_angle(scene, j), centre, width)
@@ -120,6 +134,8 @@ KINDS: dict[str, DriverKind] = {
     "chain angle": DriverKind(_chain_angle),
     "attitude": DriverKind(_attitude),
     "attitude twice": DriverKind(_attitude_twice),
+    "pull on the target": DriverKind(_pull),
+    "side of the nest": DriverKind(_side),
     "lost motion": DriverKind(_lost_motion, needs="approach"),
     "spline": DriverKind(_spline),
     **LOADS,

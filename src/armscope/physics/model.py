@@ -14,6 +14,7 @@ from armscope.core.types import Array
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import ToolKey
+from armscope.physics.loose_target import LOOSE_TARGET
 from armscope.physics.scene import Posture, Scene
 from armscope.physics.set_ups import SetUps
 from armscope.recordings import Recordings
@@ -93,7 +94,7 @@ class FittedModel:
         return (*self.tools, *self.background, *self.parts)
 
     def in_its_own_base(self) -> FittedModel:
-        """Without what moves the base as a whole: where it or the instrument stood does not move the arm in it."""
+        """Without what moves base or target: where they or the instrument stood does not move the arm in its base."""
         own = (tuple(p for p in some if not moves_the_set_up(p.placed)) for some in (self.parts, self.background))
         parts, background = own
         return replace(self, parts=parts, background=background)
@@ -155,8 +156,11 @@ class FittedModel:
 def moves_the_set_up(placed: Placed) -> bool:
     """Whether an effect moves base or instrument as a whole, in time, with the temperature or from run to run.
 
-    A base that gives way to a load is the arm's: it does so under every command.
+    So does a target that is loose on the tool: no command of the arm is wrong by it. A base that gives way to a load is
+    the arm's: it does so under every command.
     """
+    if placed.effect is LOOSE_TARGET:
+        return True
     products = [product for term in placed.terms for product in term.products]
     of_base = placed.location == "base" and all(product.direction.location == "base" for product in products)
     return of_base and all(follows("run", product.driver) for product in products)

@@ -16,6 +16,7 @@ from armscope.physics import (
     freeform,
     geometric,
     instrument,
+    loose_target,
     payload,
     thermal,
     transmission,
@@ -37,6 +38,7 @@ EFFECTS: tuple[Effect, ...] = (
     *drift.EFFECTS,
     *zero_shift.EFFECTS,
     *instrument.EFFECTS,
+    *loose_target.EFFECTS,
     *payload.EFFECTS,
     *freeform.EFFECTS,
 )

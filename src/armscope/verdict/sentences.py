@@ -287,6 +287,7 @@ def kind_and_place(effect: FoundEffect) -> str:
         return f"either {plain(effect.title)}"
     kinds = {
         "elastic": "something gives way under load",
+        "instrument": "something is measured wrong",
         "geometric": "the geometry differs from what was stated",
         "transmission": "a drive does not turn as commanded",
         "thermal": "something grows with temperature",

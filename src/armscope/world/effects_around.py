@@ -6,6 +6,7 @@ Conventions: `armscope.world.effects`.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -83,6 +84,40 @@ def _hide_payload_centre(hidden: Hidden, scene: Scene, location: str, values: Va
     hidden.layout = replace(hidden.layout, payload_offset=hidden.layout.payload_offset + centre)
 
 
+def weight_along_tool(scene: Scene) -> Array:
+    """(N, 3) share of a weight that pulls along each axis of the nominal last frame."""
+    down = scene.geometry.gravity / np.linalg.norm(scene.geometry.gravity)
+    return np.asarray(np.swapaxes(scene.tool_turn, 1, 2) @ down)
+
+
+def lower_side(pull: Array) -> Array:
+    """(N, k) where something lies that slides along k axes, each way by one; in the middle where that is nearly level.
+
+    Args:
+        pull: (N, k) share of its weight along each of them.
+    """
+    steep = np.linalg.norm(pull, axis=1, keepdims=True)
+    return np.where(steep > LEAST_SLOPE, pull / np.maximum(steep, LEAST_SLOPE), 0.0)
+
+
+LEAST_SLOPE = 0.1
+"""Dry friction of polished steel."""
+
+
+def _hide_holder(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    pull = weight_along_tool(scene)
+    for n, axis in enumerate("xy"):
+        hidden.move(f"target {axis}", values[f"sag_{axis}"] * pull[:, n])
+
+
+def _hide_nest(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    """A target that falls from one side of its nest to the other."""
+    (axes,) = (name.removeprefix("play_") for name in values)
+    side = lower_side(weight_along_tool(scene)[:, ["xyz".index(axis) for axis in axes]])
+    for n, axis in enumerate(axes):
+        hidden.move(f"target {axis}", values[f"play_{axes}"] * side[:, n])
+
+
 BASE: tuple[Kind, ...] = (
     Kind(
         "base_drift", "", TIME, twist_parameters("/h", 1 / HOUR_S), ("time_s",), only("base"), _draw_drift, _hide_drift
@@ -94,6 +129,26 @@ BASE: tuple[Kind, ...] = (
     Kind(
         "base_compliance", "", LOAD, COMPLIANCE, ("payload_kg",), only("base"), compliance_across,
         _hide_base_compliance,
+    ),
+)  # fmt: skip
+"""In the order of the catalogue."""
+
+
+def _draw_play(axes: str, rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
+    return {f"play_{axes}": 3e-4}
+
+
+TARGET: tuple[Kind, ...] = (
+    Kind(
+        "holder_sag", "", LOAD, tuple(Parameter(f"sag_{axis}", "mm", 1e-3) for axis in "xy"), (), only("tool"),
+        lambda rng, scene, place: {f"sag_{axis}": float(rng.normal(0, 3e-4)) for axis in "xy"}, _hide_holder,
+    ),
+    *(
+        Kind(
+            "loose_target", axes, LOAD, (Parameter(f"play_{axes}", "mm", 1e-3),), (), only("tool"),
+            partial(_draw_play, axes), _hide_nest,
+        )
+        for axes in ("x", "xy")
     ),
 )  # fmt: skip
 """In the order of the catalogue."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.robot.description import LinkMass
-from armscope.world.layout import BASE_FREEDOMS, PEDESTAL, SEGMENTS, Frame, Geometry, Layout
+from armscope.world.layout import BASE_FREEDOMS, PEDESTAL, SEGMENTS, TARGET_FREEDOMS, Frame, Geometry, Layout
 
 
 def mjcf(geometry: Geometry, layout: Layout, rows: Array) -> str:
@@ -71,13 +71,22 @@ def _chain(geometry: Geometry, layout: Layout, rows: Array) -> str:
     if geometry.tool_load is not None:
         parts.append(_mass_body(geometry.tool_load))
     tool = geometry.tool + layout.tool_error
-    parts.append(f'<site name="tool" pos="{numbers(tool)}"/>')
+    parts.append(_target(layout, tool))
     # a token mass, so that the body exists; `set_payload` gives it its real one
     parts.append(
         f'<body name="payload" pos="{numbers(geometry.tool + layout.payload_offset)}">'
         '<inertial pos="0 0 0" mass="1e-12" diaginertia="1e-12 1e-12 1e-12"/></body>'
     )
     return "".join(parts) + "</body>" * depth
+
+
+def _target(layout: Layout, tool: Array) -> str:
+    """The point that is measured, on slides along the last frame's axes where it is loose."""
+    slides = "".join(_freedom(layout, name) for name in TARGET_FREEDOMS)
+    if not slides:
+        return f'<site name="tool" pos="{numbers(tool)}"/>'
+    inertia = '<inertial pos="0 0 0" mass="1e-12" diaginertia="1e-12 1e-12 1e-12"/>'
+    return f'<body name="target" pos="{numbers(tool)}">{inertia}{slides}<site name="tool"/></body>'
 
 
 def _freedom(layout: Layout, name: str) -> str:

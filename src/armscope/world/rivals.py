@@ -16,9 +16,10 @@ from scipy.linalg import orth
 
 from armscope.core.location import Location
 from armscope.core.types import Array
+from armscope.world.effects_around import lower_side, weight_along_tool
 from armscope.world.effects_of_links import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
-from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, Layout, all_freedoms, segment_hinges
+from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, TARGET_FREEDOMS, Layout, all_freedoms, segment_hinges
 from armscope.world.mechanism import Mechanism
 from armscope.world.strength import Sized, free_frames
 
@@ -81,6 +82,7 @@ def rivals(scene: Scene) -> list[Rival]:
     """Every effect of the vocabulary at every place (meshes of gears and payload errors left out)."""
     patterns = Patterns(scene)
     found = [*_base_rivals(patterns), *_joint_rivals(patterns), *_link_rivals(patterns)]
+    found += _target_rivals(patterns)
     found.append(_rival("instrument_scale", "instrument", patterns.tool))
     return found
 
@@ -97,6 +99,15 @@ def _base_rivals(patterns: Patterns) -> Iterator[Rival]:
         after = (time > np.quantile(time, share))[:, None]
         yield _rival("base_shift", "base", *(twist * after for twist in twists))
     yield _rival("base_compliance", "base", patterns.given_way("base rx", "base ry"))
+
+
+def _target_rivals(patterns: Patterns) -> Iterator[Rival]:
+    pull, along = weight_along_tool(patterns.scene), [patterns.of(name) for name in TARGET_FREEDOMS]
+    yield _rival("holder_sag", "tool", *(along[n] * pull[:, n, None] for n in (0, 1)))
+    for axes in ([0], [1], [2], [0, 1], [1, 2], [0, 2]):
+        side = lower_side(pull[:, axes])
+        falls = np.sum([along[n] * side[:, at, None] for at, n in enumerate(axes)], axis=0)
+        yield _rival("loose_target", "tool", falls)
 
 
 def _joint_rivals(patterns: Patterns) -> Iterator[Rival]:
