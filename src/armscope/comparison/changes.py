@@ -28,6 +28,7 @@ from armscope.comparison.search import likeliest_changes
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.standing import stands
+from armscope.comparison.steps import as_steps
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.physics.geometric import JOINT_OFFSET
@@ -58,7 +59,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     tried = len(everything)
     joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     names = tuple(recordings)
-    taken, changes = _named(model, everything, names)
+    taken, changes = _named(model, everything, names, of_arms)
     return Comparison(
         arm=arm.name,
         names=names,
@@ -78,7 +79,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
 
 
 def _named(
-    model: SharedModel, everything: Sequence[Possible], names: Sequence[str]
+    model: SharedModel, everything: Sequence[Possible], names: Sequence[str], of_arms: bool
 ) -> tuple[list[Possible], tuple[Change, ...]]:
     """The changes that explain the rows best and can stand as they are told, the likeliest first.
 
@@ -87,6 +88,7 @@ def _named(
     possible, tried = list(everything), len(everything)
     while True:
         taken = _settled_changes(model, possible, tried)
+        taken = taken if of_arms else as_steps(taken, possible)
         ranked = []
         for each in taken:
             others = [other for other in taken if other is not each]
@@ -193,6 +195,8 @@ def _change(
     rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
     kind = _kind(parameters, inside, outside)
+    if kind in ("went", "shrank") and back < left:
+        kind = "changed"  # it cannot be less where taking it back leaves less: how large it is, is told too surely
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
     place = found.placed.name, found.placed.location, title
