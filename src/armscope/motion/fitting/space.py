@@ -132,6 +132,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 family=cause.cause.family,
                 region=region_of(cause),
                 plausible=_plausible(cause, layout),
+                usual=np.array(cause.usual) if cause.usual else None,
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
