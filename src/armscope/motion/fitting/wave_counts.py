@@ -19,7 +19,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage_constants import LINKAGE
-from armscope.motion.library.waves import fewest_waves
+from armscope.motion.library.waves import fewest_waves, most_waves
 
 
 def recounted(selected: SelectedCauses) -> dict[int, PlacedCause]:
@@ -53,7 +53,7 @@ def recounted(selected: SelectedCauses) -> dict[int, PlacedCause]:
 def followed_by_a_curve(angle: Array) -> NDArray[np.int_]:
     """Counts of waves of which the range of an angle (N,) holds enough, and no more than a free curve follows."""
     turns = float(np.ptp(angle)) / (2 * np.pi) if len(angle) else 0.0
-    return np.arange(fewest_waves(turns), int(LIBRARY.knots_of_position / 2 / max(turns, 1e-9)) + 1)
+    return np.arange(fewest_waves(turns), int(most_waves(turns, LIBRARY.knots_of_position)) + 1)
 
 
 def nats_of_waves(left: LeftAtJoint, counts: NDArray[np.int_]) -> Array:

@@ -33,6 +33,15 @@ def fewest_waves(turns: float) -> int:
     return max(2, int(np.ceil(LIBRARY.least_waves / max(turns, 1e-9))))
 
 
+def most_waves(turns: float, knots: float) -> float:
+    """Per turn, that a cubic spline with so many columns over a range of so many turns can follow.
+
+    Its slope has a column less, and changes its sign less often than that by one (variation diminishes); a wave's does
+    so twice.
+    """
+    return (knots - 2) / 2 / max(turns, 1e-9)
+
+
 def successive_waves(signals: Signals, joint: int, first: int, number: int) -> Array:
     """As `wave` has them of successive counts, each from the one before, which takes an eighth of the time.
 
