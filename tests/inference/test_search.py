@@ -85,6 +85,23 @@ def test_predicted_gains_keep_to_what_is_plausible() -> None:
             assert promised[size, candidate] == pytest.approx(gain, abs=0.2 + 0.05 * abs(gain))
 
 
+def test_what_is_much_smaller_than_usual_is_the_less_likely_and_what_it_promises_is_what_it_brings() -> None:
+    candidates = [single(n) for n in range(SINGLE)]
+    candidates[2] = replace(candidates[2], usual=np.array([50.0]))
+    plain, usual = (
+        search_on(space_of([single(n) for n in range(SINGLE)]), {2: 0.1}),
+        search_on(space_of(candidates), {2: 0.1}),
+    )
+    worth = []
+    for search in (plain, usual):
+        before = search.perfect()
+        promised = addition_scores(search.problem, search.groups, before)[:, 2].max()
+        found = [search.evaluated((SelectedEffect(2, n),), before) for n in range(len(search.problem.sizes))]
+        worth.append(max(each.log_posterior for each in found) - before.log_posterior)
+        assert promised == pytest.approx(worth[-1], abs=0.2 + 0.05 * abs(worth[-1]))
+    assert worth[0] - worth[1] > 3.0
+
+
 def test_the_frames_take_up_what_is_theirs() -> None:
     search = search_on(space_of([single(n) for n in range(SINGLE)]), {})
     assert search.problem.mismatch == pytest.approx(NOISE, rel=0.15)

@@ -40,6 +40,14 @@ def test_what_is_carried_counts_in_its_own_samples() -> None:
     np.testing.assert_allclose(Bodies(arm, arm.inertial, load).torques(*MOTION), expected, atol=1e-9)
 
 
+def test_among_some_samples_what_is_carried_in_these_counts() -> None:
+    """A drive that gives way asked for a link's swing in some poses, with loads of all: it ended in an IndexError."""
+    load, some = np.array([0.0, 2.0, 2.0, 0.0, 1.0, 0.0]), slice(None, None, 2)
+    bodies, few = Bodies(robot(), robot().inertial, load), [values[::2] for values in MOTION]
+    np.testing.assert_allclose(bodies.among(some).torques(*few), bodies.torques(*MOTION)[some], atol=1e-12)
+    assert Bodies(robot(), robot().inertial, None).among(some).payload is None
+
+
 def test_of_masses_that_no_body_has_the_stated_ones_count() -> None:
     arm = robot()
     wild = arm.inertial.copy()

@@ -14,8 +14,8 @@ from armscope.inference.conditioning import ConditionedColumns, LowRankUpdate, c
 from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks, profiled_gain, quadratic_and_logdet
-from armscope.inference.model_space import Candidate, within
-from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.model_space import Candidate
+from armscope.inference.problem import Problem, SelectedEffect, within
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +44,10 @@ class CandidateGroups:
         for group, columns in zip(candidates, self.columns, strict=True):
             room = columns.shape[1]
             scales = np.array([_filled(c.prior_scale, room, 0.0) for c in group])
-            plausible = np.array([_filled(_plausible(c), room, np.inf) for c in group])
+            plausible = np.array([_filled(_or(c.plausible, c, np.inf), room, np.inf) for c in group])
+            usual = np.array([_filled(_or(c.usual, c, 0.0), room, 0.0) for c in group])
             expected = self.problem.sizes[:, None, None] * scales
-            widths.append(within(expected, plausible, self.problem.scale[self.competing[columns]]))
+            widths.append(within(expected, plausible, self.problem.scale[self.competing[columns]], usual))
         return tuple(widths)
 
     @functools.cached_property
@@ -85,8 +86,8 @@ def _filled(values: Array | Indices, room: int, filling: float) -> Array:
     return np.concatenate([values, np.full(room - len(values), filling, dtype=values.dtype)])
 
 
-def _plausible(candidate: Candidate) -> Array:
-    return np.full(len(candidate.columns), np.inf) if candidate.plausible is None else candidate.plausible
+def _or(values: Array | None, candidate: Candidate, otherwise: float) -> Array:
+    return np.full(len(candidate.columns), otherwise) if values is None else values
 
 
 def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypothesis) -> tuple[Array, Indices]:

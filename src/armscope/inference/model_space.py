@@ -37,6 +37,7 @@ class Candidate:
         multiplicity: how many values of a scanned number compete: the prior pays for them.
         plausible: (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is
             known. The smaller of the two counts: what rows don't tell stays within what is plausible.
+        usual: (c,) how large each is as a rule, so: much smaller ones are less likely; None where nothing is known.
         nonnegative: it has one coefficient, which can't be negative.
         is_curve: a free curve, which contains special cases.
         competes: it enters a search by itself; otherwise only in another's place.
@@ -61,6 +62,7 @@ class Candidate:
     region: str = ""
     multiplicity: int = 1
     plausible: Array | None = None
+    usual: Array | None = None
     nonnegative: bool = False
     is_curve: bool = False
     competes: bool = True
@@ -182,20 +184,6 @@ class ToleranceFamily:
         """The family without some columns, whichever of them it has."""
         kept = ~np.isin(self.columns, columns)
         return replace(self, columns=self.columns[kept], tolerance=self.tolerance[kept])
-
-
-def within(expected: Array, plausible: Array | None, scale: Array) -> Array:
-    """(..., c) prior sizes, mm, of scaled coefficients: as expected, nor larger than is plausible in their own units.
-
-    Args:
-        expected: (..., c) mm.
-        plausible: (..., c) in the columns' own units; None: anything is.
-        scale: (..., c) mm per unit.
-
-    Returns:
-        The smaller of the two.
-    """
-    return expected if plausible is None else np.minimum(expected, plausible * scale)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import PRIORS
-from armscope.inference.model_space import BackgroundSizes, ModelSpace, within
+from armscope.inference.model_space import BackgroundSizes, ModelSpace
 from armscope.inference.normal_equations import NormalEquations, column_scales
 
 
@@ -81,9 +81,8 @@ class Problem:
     def prior_scale(self, effect: SelectedEffect) -> Array:
         """(c,) prior standard deviations of an effect's scaled coefficients, mm."""
         candidate = self.space.candidates[effect.candidate]
-        return within(
-            self.sizes[effect.size] * candidate.prior_scale, candidate.plausible, self.scale[candidate.columns]
-        )
+        expected, scale = self.sizes[effect.size] * candidate.prior_scale, self.scale[candidate.columns]
+        return within(expected, candidate.plausible, scale, candidate.usual)
 
     @functools.cached_property
     def _in_backgrounds(self) -> dict[BackgroundSizes, Array]:
@@ -175,3 +174,19 @@ def prior_variances(problem: Problem, chosen: Sequence[SelectedEffect], backgrou
 def background_sizes(problem: Problem, background: BackgroundSizes) -> tuple[float, ...]:
     """Size of each family's background as a number: share of its tolerance."""
     return tuple(family.label(size) for family, size in zip(problem.space.families, background, strict=True))
+
+
+def within(expected: Array, plausible: Array | None, scale: Array, usual: Array | None = None) -> Array:
+    """(..., c) prior sizes, mm, of scaled coefficients: as expected, not below the usual nor beyond the plausible.
+
+    Args:
+        expected: (..., c) mm.
+        plausible: (..., c) in the columns' own units; None: anything is.
+        scale: (..., c) mm per unit.
+        usual: (..., c) as ``plausible``.
+
+    Returns:
+        The sizes.
+    """
+    expected = expected if usual is None else np.maximum(expected, usual * scale)
+    return expected if plausible is None else np.minimum(expected, plausible * scale)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -26,6 +26,10 @@ class Bodies:
     arm: MovingArm
     inertial: Array
     payload: Array | None
+
+    def among(self, some: slice) -> Bodies:
+        """With what they carry at some of the samples."""
+        return self if self.payload is None else replace(self, payload=self.payload[some])
 
     def torques(self, q: Array, dq: Array, ddq: Array) -> Array:
         """What they ask of the motors.

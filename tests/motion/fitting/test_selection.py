@@ -7,7 +7,12 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.fitting.selection import _at_rest, starting_weights
+from armscope.motion.fitting.space import build_space
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.placing import place_causes
+from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.samples.timing import stretches
 from tests.motion.cured import JOINT, LONG, STATED, Motion, diagnosed
 from tests.motion.moving import Plant, moved, robot
 from tests.seeds import seeds
@@ -60,6 +65,32 @@ def test_a_gain_that_bends_next_to_nothing_is_a_gain(bend: float, name: str) -> 
     assert (cause.effect, cause.location) == (name, f"joint {JOINT + 1}")
     if name == "motor_constant":
         assert -0.1 < cause.parameters[0].value < -0.08
+
+
+@pytest.mark.parametrize("seed", seeds(3, 4))
+def test_a_weak_cable_that_a_spring_says_most_of_stays_a_cable(seed: int) -> None:
+    """A spring with seven tenths of its evidence took its place, and a spring is built in to hold more than that."""
+
+    def weak(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        extra, turned = np.zeros_like(q), q[:, 1] - 0.2
+        pull = 0.4 * turned + turned**3
+        extra[:, 1] = 0.25 * pull / pull.std()
+        return extra
+
+    found = diagnose_motion(robot(), moved(robot(), seed, weak, seconds=15.0), MotionSettings(cutoff=10.0))
+    assert [(each.effect, each.location) for each in found.verdict.effects] == [("cable_torque", "joint 2")]
+
+
+def test_an_offset_counts_beside_the_laws_of_a_speed_curve() -> None:
+    arm = robot()
+    placed = place_causes(seen_in(arm, list(stretches(moved(arm, 1))), 0.02))
+    space = build_space(TorqueLayout(arm, tuple(placed), False), np.ones(3), 200.0)
+    at = {(each.cause.name, each.driver, each.variant): n for n, each in enumerate(placed) if each.joints == (1,)}
+    by_name = {name: n for (name, _, _), n in at.items()}
+    curve = space.candidates[at["unknown", "speed", "speed"]]
+    two = {by_name["asymmetric_friction"], by_name["viscous_curve"]}
+    assert curve.excess(frozenset(two | {by_name["torque_offset"]})) == 0
+    assert curve.excess(frozenset(two | {by_name["stribeck_friction"]})) == 1
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from armscope.motion.library.placing import place_causes
@@ -33,3 +34,12 @@ def test_a_centre_that_shows_as_an_inertia_only_is_no_cause_of_its_own(gravity: 
     assert (("link_first_moment", "") in first) is says
     assert first.count(("link_inertia", "")) == 1
     assert ("link_inertia", "all six") not in first
+
+
+def test_springs_and_counterweights_hold_as_a_rule_a_third_of_what_their_joint_carries() -> None:
+    seen = seen_in(robot(), list(stretches(moved(robot(), 1))), 0.02)
+    forms = [each for each in place_causes(seen) if each.cause.name == "gravity_balance" and each.joints == (1,)]
+    assert len(forms) == 3
+    for form in forms:
+        at_the_ends = form.usual[0] * (np.ptp(seen.q[1]) / 2 if form.columns.kind == "spring" else 1.0)  # type: ignore[union-attr]
+        assert at_the_ends == pytest.approx(seen.effort[1] / 3)

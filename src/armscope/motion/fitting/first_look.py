@@ -16,7 +16,7 @@ from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selection import estimated_model
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.library.waves import successive_waves
+from armscope.motion.library.waves import fewest_waves, successive_waves
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
@@ -153,7 +153,7 @@ def counts_shown(stretch: Stretch, how: Preparation, j: int) -> tuple[NDArray[np
     if not len(moving):
         return np.arange(0), np.arange(0)
     fast, slow = float(np.percentile(speed, 90)), float(np.percentile(moving, LIBRARY.slow_turn))
-    least = max(2, int(np.ceil(LIBRARY.least_waves * 2 * np.pi / max(float(np.ptp(stretch.q[:, j])), 1e-9))))
+    least = fewest_waves(float(np.ptp(stretch.q[:, j])) / (2 * np.pi))
     few = min(LIBRARY.few_waves, int(how.cutoff / max(fast, 1e-9)))
     many = min(LIBRARY.most_waves, int(how.cutoff / max(slow, 1e-9)))
     return np.arange(least, few + 1), np.arange(max(few + 1, least), many + 1)

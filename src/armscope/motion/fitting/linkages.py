@@ -8,18 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import chain
 
 import numpy as np
 from scipy.optimize import minimize
 
 from armscope.core.types import Array
-from armscope.inference.linear_algebra import lower_cholesky, solve_lower, solve_upper
-from armscope.motion.constants import NOISE, PRIOR
+from armscope.motion.constants import NOISE
+from armscope.motion.fitting.left_at_joint import LeftAtJoint, follows_angle
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.torque_delay import columns_of
-from armscope.motion.fitting.weights import weighed
-from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.laws import Law
 from armscope.motion.library.linkage import pull, pushes_one_way
@@ -42,7 +38,7 @@ def remounted(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]
     """
     layout = selected.rows.layout
     placed = layout.placed[number]
-    rivals = [n for n in selected.best.candidates if _follows_angle(layout.placed[n], placed.joints)]
+    rivals = [n for n in selected.best.candidates if follows_angle(layout.placed[n], placed.joints)]
     if not rivals or not isinstance(placed.columns, Law):
         return placed, True
     judged, (phase, ratio, middle) = _Judged(selected, placed.joints[0], rivals), placed.columns.numbers
@@ -126,44 +122,12 @@ def _finest(judged: _Judged, start: Mount, middle: float) -> tuple[Mount, float]
     return (float(found.x[0]), _possible(float(found.x[1]))), -float(found.fun)
 
 
-def _follows_angle(placed: PlacedCause, joints: tuple[int, ...]) -> bool:
-    """Whether a cause is a spring or a cable of one joint."""
-    return placed.joints == joints and placed.cause in (catalogue.BALANCER, catalogue.CABLE)
-
-
 def _possible(ratio: float) -> float:
     return float(np.clip(ratio, LINKAGE.least_ratio, LINKAGE.largest_ratio))
 
 
-class _Judged:
-    """One joint's torque without what follows its angle, beside everything else that is chosen: in some rows.
-
-    These rows stand for all of the joint's, also where they say what everything else is worth: beside a spring hundreds
-    of times the noise, sums over other rows would differ from theirs by more than the noise is.
-    """
-
-    def __init__(self, selected: SelectedCauses, joint: int, without: Sequence[int]) -> None:
-        rows, best, scale = selected.rows, selected.best, selected.problem.scale
-        left_out = np.concatenate([rows.layout.columns[number] for number in without])
-        others = np.setdiff1d(best.columns, left_out)
-        held = rows.pauses[joint].holding(len(rows), LINKAGE.held)
-        among = np.flatnonzero((selected.weights.row[:, joint] > 0) & ~held)
-        every = -(-len(among) // LINKAGE.rows)
-        among = among[::every]
-        unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
-        self.root = np.sqrt(every * unit * selected.weights.row[among, joint])
-        beyond = self.root * (rows.torque[:, joint] - rows.nominal[:, joint])[among]
-        columns = self.root[:, None] * columns_of(selected, joint, others)[among] / scale[others]
-        elsewhere = weighed(rows, (each for each in chain(*selected.by_joint) if each.joint != joint), selected.weights)
-        in_units = np.outer(scale[others], scale[others]) * best.noise**2
-        prior = np.diag(1 / best.variance[best.at(others)])
-        factor = lower_cholesky(
-            elsewhere.G[np.ix_(others, others)] / in_units + columns.T @ columns + prior, np.zeros(len(others))
-        )
-        worth = elsewhere.b[others] / scale[others] / best.noise**2 + columns.T @ beyond
-        self.left = beyond - columns @ solve_upper(factor, solve_lower(factor, worth))
-        self.absorbed, self.angle = solve_lower(factor, columns.T), rows.q[among, joint]
-        self.prior = LINKAGE.usual_torque**-2 / max(float(np.mean(rows.torque[among, joint] ** 2)), 1e-300)
+class _Judged(LeftAtJoint):
+    """What is left at a joint where mounts of a spring are tried."""
 
     def nats(self, mounts: Sequence[Mount], middle: float) -> Array:
         """(T,) by which a spring of each mount betters what is left, all else fitted anew."""

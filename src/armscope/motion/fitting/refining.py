@@ -12,6 +12,7 @@ from armscope.motion.fitting.clocks import rivals_at_hand
 from armscope.motion.fitting.linkages import remounted
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import Between, lag_step
+from armscope.motion.fitting.wave_counts import recounted
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.changes import as_it_is_carried
@@ -74,6 +75,8 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
         moved = moved or not rests
     for number, rival, elsewhere in rivals_at_hand(selected):
         placed[number], moved = rival, moved or elsewhere
+    for number, counted in recounted(selected).items():
+        placed[number], moved = counted, True
     for number in range(len(placed)):
         if (
             is_anywhere(placed[number]) and number not in selected.best.candidates

@@ -33,6 +33,7 @@ from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.library.masses import has_its_own_inertia
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
+from armscope.verdict.effects import UNKNOWN
 
 
 def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
@@ -248,7 +249,7 @@ def named_first(search: Search, best: Hypothesis) -> Hypothesis:
     """
     for effect in best.chosen:
         candidate = search.candidate(effect.candidate)
-        if not candidate.special_cases or effect not in best.chosen:
+        if candidate.family != UNKNOWN or not candidate.special_cases or effect not in best.chosen:
             continue
         base = search.without(best, [effect.candidate])
         named = base

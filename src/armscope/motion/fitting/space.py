@@ -120,6 +120,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
         excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
         excludes |= frozenset(n for n in changing if _at_the_same_moments(cause, placed[n]))
         excludes |= frozenset(n for n, other in enumerate(placed) if _of_one_clock(cause, other))
+        special = frozenset(n for n in excludes - barred if _contains(cause, placed[n]))
         candidates.append(
             Candidate(
                 kind=cause.cause.name,
@@ -132,13 +133,15 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 family=cause.cause.family,
                 region=region_of(cause),
                 plausible=_plausible(cause, layout),
+                usual=np.array(cause.usual) if cause.usual else None,
                 multiplicity=cause.multiplicity,
                 nonnegative=cause.cause.nonnegative and cause.width == 1,
                 is_curve=cause.is_curve,
                 competes=number not in barred,
                 excludes=excludes,
-                special_cases=frozenset(n for n in excludes - barred if _contains(cause, placed[n])),
+                special_cases=special,
                 side_by_side=2,
+                common=frozenset(n for n in special if placed[n].cause is catalogue.OFFSET),
             )
         )
     return tuple(candidates)

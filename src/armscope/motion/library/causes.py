@@ -139,6 +139,7 @@ class PlacedCause:
         is_curve: a free curve.
         scanned: (name, unit, value) of numbers that were scanned.
         expected: (c,) how large its parameters are expected to be beside each other; empty: alike.
+        usual: (c,) how large they are as a rule where it is there at all; empty: anything is usual.
     """
 
     cause: Cause
@@ -155,6 +156,7 @@ class PlacedCause:
     is_curve: bool = False
     scanned: tuple[tuple[str, str, float], ...] = ()
     expected: tuple[float, ...] = ()
+    usual: tuple[float, ...] = ()
 
     @property
     def common(self) -> bool:

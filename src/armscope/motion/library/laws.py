@@ -139,7 +139,8 @@ def _swing_hz(m: Moment, joint: int, compliance: float) -> float:
     q = m.motion[0][few]
     still, turning = np.zeros_like(q), np.zeros_like(q)
     turning[:, joint] = 1.0
-    inertia = (m.bodies.torques(q, still, turning) - m.bodies.torques(q, still, still))[:, joint]
+    bodies = m.bodies.among(few)
+    inertia = (bodies.torques(q, still, turning) - bodies.torques(q, still, still))[:, joint]
     return float(1 / (2 * np.pi * np.sqrt(max(abs(compliance) * float(inertia.max()), 1e-300))))
 
 

@@ -46,6 +46,11 @@ class LinkageRules(Constants):
         "rad, of the ratio, and nats, by which a mount still moves; steps of its slopes",
         "judgement: less than any rows bear",
     )
+    built_in: float = constant(
+        1 / 3,
+        "of the joint's torque, that a spring or a counterweight takes off it as a rule where one is built in",
+        "judgement: it is built in to take most of what the joint carries; cables and hoses pull with some hundredths",
+    )
     usual_torque: float = constant(
         3.0, "of the joint's torque, that a spring's may be", "judgement: wide; springs hold what gravity asks for"
     )

@@ -201,13 +201,13 @@ def _drive(at: _Joint) -> PlacedCause:
 
 
 def _springs(at: _Joint) -> Iterator[PlacedCause]:
-    driver, q = "joint angle", at.seen.q[at.number]
-    stiffness = (("stiffness", f"{at.torque}/{at.unit}"), ("torque", at.torque))
-    yield at.cause(catalogue.BALANCER, driver, stiffness, "spring", float(np.mean(q)))
+    driver, q, held = "joint angle", at.seen.q[at.number], LINKAGE.built_in * float(at.seen.effort[at.number])
+    stiffness, usual = (("stiffness", f"{at.torque}/{at.unit}"), ("torque", at.torque)), (2 * held / np.ptp(q), held)
+    yield at.cause(catalogue.BALANCER, driver, stiffness, "spring", float(np.mean(q)), usual=usual)
     if not at.seen.arm.sliding[at.number]:
         waves = (("sine", at.torque), ("cosine", at.torque))
-        yield at.cause(catalogue.BALANCER, driver, waves, "wave", 1, variant="counterweight")
-        yield _between_links(at)
+        yield at.cause(catalogue.BALANCER, driver, waves, "wave", 1, variant="counterweight", usual=(held, held))
+        yield _between_links(at, held)
         found, tried = at.seen.waves.get(at.number, ((), 1))
         for n in found:
             more: dict[str, Any] = {"variant": str(n), "scanned": (("per_turn", "", float(n)),)}
@@ -216,14 +216,14 @@ def _springs(at: _Joint) -> Iterator[PlacedCause]:
         yield at.curve(catalogue.CABLE, driver, q, knots, variant=str(knots), multiplicity=2)
 
 
-def _between_links(at: _Joint) -> PlacedCause:
+def _between_links(at: _Joint, held: float) -> PlacedCause:
     """A gas spring, or another between two links; how it is mounted is scanned once something follows the angle."""
     middle = float(np.mean(at.seen.q[at.number]))
     phase, ratio = np.pi / 2 - middle, LINKAGE.ratios[len(LINKAGE.ratios) // 2]
     names = (("force_lever", at.torque), ("growth", at.torque))
     scanned = (("phase", "rad", phase), ("ratio", "", ratio))
     how: dict[str, Any] = {"variant": BETWEEN_LINKS, "scanned": scanned, "multiplicity": LINKAGE.tried}
-    how["expected"] = (1.0, LINKAGE.growth)
+    how["expected"], how["usual"] = (1.0, LINKAGE.growth), (held, held * LINKAGE.growth)
     return at.cause(catalogue.BALANCER, "joint angle", names, "spring between links", phase, ratio, middle, **how)
 
 

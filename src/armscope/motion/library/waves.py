@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.types import Array
+from armscope.motion.constants import LIBRARY
 from armscope.motion.samples.preparation import Signals
 
 
@@ -25,6 +26,20 @@ def wave(signals: Signals, joint: int, count: float) -> Array:
     """
     turned = count * signals.q[:, joint]
     return np.column_stack([np.sin(turned), np.cos(turned)]) * _shown(signals, joint, np.array([count]))
+
+
+def fewest_waves(turns: float) -> int:
+    """Per turn, that a joint shows whose range is so many turns: with fewer a wave is no more than a bend."""
+    return max(2, int(np.ceil(LIBRARY.least_waves / max(turns, 1e-9))))
+
+
+def most_waves(turns: float, knots: float) -> float:
+    """Per turn, that a cubic spline with so many columns over a range of so many turns can follow.
+
+    Its slope has a column less, and changes its sign less often than that by one (variation diminishes); a wave's does
+    so twice.
+    """
+    return (knots - 2) / 2 / max(turns, 1e-9)
 
 
 def successive_waves(signals: Signals, joint: int, first: int, number: int) -> Array:
