@@ -47,3 +47,14 @@ def test_a_wrong_ratio_of_a_stiff_arm_is_no_gravity(ratio: float) -> None:
     rows = measured(arm, turned, far_away(rng), {"": [0.0, 0.0, 0.1]}, 3e-5, rng)
     table = replace(rows, motor_angles=angles)
     assert [each.text() for each in check(table, arm).suspicions if each.kind == GRAVITY] == []
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_an_arm_on_a_wall_described_as_upright_is_told_which_way_things_fall(axis: int) -> None:
+    """Its wrist was told to have a worn bearing and a gear of 57 waves. Here the description has it the other way."""
+    arm = load_arm(EXAMPLES / "five-effects" / "robot.yaml")
+    table = read_recordings(EXAMPLES / "five-effects" / "recordings.csv", arm.n_motors)
+    arm = replace(arm, gravity=9.81 * np.eye(3)[axis])
+    (text,) = [each.text() for each in check(table, arm).suspicions if each.kind == GRAVITY]
+    assert "[0, 0, -9.81], joints that give way explain" in text
+    assert "--estimate-gravity" in text

@@ -37,10 +37,14 @@ def test_a_drive_that_seems_softer_may_be_another_load_of_so_many_kilograms() ->
     assert "(compliance of 2)" in other_load(ARM, angles, [softer(seen), CHANGE])
 
 
-@pytest.mark.parametrize(("effect", "said"), [("backlash", True), ("joint_offset", False)])
-def test_only_what_follows_loads_may_be_a_load(effect: str, said: bool) -> None:
+@pytest.mark.parametrize(
+    ("effect", "variant", "said"),
+    [("backlash", "load", True), ("backlash", "approach", False), ("joint_offset", "", False)],
+)
+def test_only_what_follows_loads_may_be_a_load(effect: str, variant: str, said: bool) -> None:
+    """Play on the side from which a joint came was told as a gripper, too."""
     angles = np.zeros((3, ARM.n_motors))
-    assert bool(other_load(ARM, angles, [replace(CHANGE, effect=effect)])) == said
+    assert bool(other_load(ARM, angles, [replace(CHANGE, effect=effect, variant=variant)])) == said
 
 
 def test_it_stands_behind_what_changed_and_names_stand_in_quotes() -> None:

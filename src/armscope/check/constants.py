@@ -239,6 +239,15 @@ class WrongGravity(Constants):
         "of it that may at most be explained along gravity",
         "judgement: poses in which either way explains as much tell no direction",
     )
+    clear_share_aside: float = constant(
+        0.5,
+        "of those squares where gravity is to point to one of four sides",
+        "judgement: most of them; an axis of a stiff arm that wobbled twice per turn showed 0.28, three arms on a wall "
+        "0.90 to 0.95",
+    )
+    another: float = constant(
+        0.1, "of its size by which two directions of gravity differ that are tried", "judgement: six degrees"
+    )
     left_of_column: float = constant(
         1e-3, "share of a column that geometry and drives must leave", "judgement: rounding is far below"
     )

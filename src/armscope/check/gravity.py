@@ -1,4 +1,4 @@
-"""Gravity that points the wrong way in robot.yaml: joints would then give way against their load."""
+"""Gravity that points another way than robot.yaml states: joints would then give way against their load, or beside."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from armscope.robot import Arm
 
 
 def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Suspicion]:
-    """Whether joints give way against the gravity that robot.yaml states, base, tool, geometry and drives being free.
+    """Whether joints give way to another gravity than robot.yaml states, base, tool, geometry and drives being free.
 
     Args:
         arm: with link masses, else nothing is tried.
@@ -25,37 +25,63 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
         state: base and tool as fitted to these rows.
 
     Returns:
-        One hint, or none: controllers that make up for too much give the same picture.
+        One hint, or none: controllers that make up for too much give the same picture as gravity turned around.
     """
-    rows = set_up(arm, replace(recordings, torque=None, orientation=None))
+    table = replace(recordings, torque=None, orientation=None)
+    rows = set_up(arm, table)
     if rows.loads is None or not np.any(rows.loads):
         return []
     posed, free = rows.posed(state), rows.free("compliance")
-    left, columns = posed.left.ravel(), rows.jacobian(state, posed, free)
-    giving = columns[:, -arm.n_motors :]
+    columns = rows.jacobian(state, posed, free)
     geometry = np.hstack([columns[:, : -arm.n_motors], drive_columns(arm, posed, recordings.motor_angles)])
     spanned, size, _ = np.linalg.svd(geometry, full_matrices=False)
     spanned = spanned[:, size > WRONG_GRAVITY.left_of_column**2 * size[0]]
-    beyond = giving - spanned @ (spanned.T @ giving)
-    beyond = beyond[:, np.linalg.norm(beyond, axis=0) > WRONG_GRAVITY.left_of_column * np.linalg.norm(giving, axis=0)]
-    left = left - spanned @ (spanned.T @ left)
-    whole, along, against = float(left @ left), _squares_left(beyond, left), _squares_left(-beyond, left)
+    left = posed.left.ravel() - spanned @ (spanned.T @ posed.left.ravel())
     numbers = len(left) - spanned.shape[1]
-    if numbers <= arm.n_motors or not against < (1 - WRONG_GRAVITY.clear_share) * whole:
+    if numbers <= arm.n_motors:
         return []
-    gains = [0.5 * numbers * np.log(whole / max(each, np.finfo(float).tiny)) for each in (along, against)]
-    if gains[1] < WRONG_GRAVITY.clear_nats or gains[0] > WRONG_GRAVITY.little * gains[1]:
+
+    def explained(gravity: Array) -> float:
+        """Share of the squares that joints explain which give way to a gravity."""
+        giving = set_up(replace(arm, gravity=gravity), table).jacobian(state, posed, free)[:, -arm.n_motors :]
+        beyond = giving - spanned @ (spanned.T @ giving)
+        clear = np.linalg.norm(beyond, axis=0) > WRONG_GRAVITY.left_of_column * np.linalg.norm(giving, axis=0)
+        return 1 - _squares_left(beyond[:, clear], left) / max(float(left @ left), np.finfo(float).tiny)
+
+    stated, best = explained(arm.gravity), max(_other_ways(arm.gravity), key=explained)
+    gains = [-0.5 * numbers * np.log(max(1 - share, np.finfo(float).tiny)) for share in (stated, explained(best))]
+    least = WRONG_GRAVITY.clear_share if np.array_equal(best, -arm.gravity) else WRONG_GRAVITY.clear_share_aside
+    if explained(best) <= least or gains[1] < WRONG_GRAVITY.clear_nats:
         return []
+    if gains[0] > WRONG_GRAVITY.little * gains[1]:
+        return []
+    return [_told(arm.gravity, best, stated, explained(best))]
+
+
+def _other_ways(gravity: Array) -> list[Array]:
+    """Gravity of the same size the other way, and along each axis of the base that it is not along as stated."""
+    size = float(np.linalg.norm(gravity))
+    along = [size * sign * axis for axis in np.eye(3) for sign in (1, -1)]
+    others = [each for each in along if np.linalg.norm(each - gravity) > WRONG_GRAVITY.another * size]
+    return [-gravity, *(each for each in others if np.linalg.norm(each + gravity) > WRONG_GRAVITY.another * size)]
+
+
+def _told(gravity: Array, best: Array, stated: float, explained: float) -> Suspicion:
+    """What joints give way to instead, and by how much that explains more."""
+    around = np.array_equal(best, -gravity)
+    wanted = ", ".join(f"{each + 0.0:.3g}" for each in best)
+    seem = "against gravity" if around else "to gravity along another axis of the base"
     statement = (
-        "joints seem to give way against gravity: with gravity_m_s2 turned around, joints that give way explain "
-        f"{100 * (1 - against / whole):.0f} % of the squared error that geometry and drives leave, "
-        f"as it is {100 * (1 - along / whole):.0f} %"
+        f"joints seem to give way {seem}: with gravity_m_s2 {'turned around' if around else f'[{wanted}]'}, joints "
+        f"that give way explain {100 * explained:.0f} % of the squared error that geometry and drives leave, "
+        f"as it is {100 * stated:.0f} %"
     )
     cure = (
         "gravity_m_s2 points the way things fall, in the base frame: [0, 0, -9.81] for an arm that stands upright, "
         "[0, 0, 9.81] for one that hangs."
     )
-    return [Suspicion("hint", statement, cure, GRAVITY)]
+    wall = "" if around else " Is it mounted on a wall? `armscope diagnose --estimate-gravity` tells how it leans."
+    return Suspicion("hint", statement, f"{cure}{wall}", GRAVITY)
 
 
 def _squares_left(columns: Array, left: Array) -> float:

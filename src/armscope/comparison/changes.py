@@ -149,8 +149,8 @@ def _worse_as_a_load(model: SharedModel, everything: Sequence[Possible], taken: 
     What its numbers cost does not count: one number of a link may be the likelier name of a faint load, and still it
     may be one.
     """
-    beside = [each for each in taken if not follows_loads(each.placed.name)]
-    alike = [each for each in taken if follows_loads(each.placed.name)]
+    beside = [each for each in taken if not follows_loads(each.placed.name, each.placed.variant)]
+    alike = [each for each in taken if follows_loads(each.placed.name, each.placed.variant)]
     sets = {each.sets for each in alike}
     loads = [each for each in everything if each.placed.effect is ANOTHER_LOAD and each.sets in sets]
     if not loads or len(sets) > 1:  # a load that changed twice may look like changes in different recordings
@@ -200,7 +200,7 @@ def _change(
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
     place = found.placed.name, found.placed.location, title
-    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back)
+    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back, found.placed.variant)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:

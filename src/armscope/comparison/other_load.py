@@ -14,14 +14,17 @@ from armscope.robot import Arm, chain
 from armscope.robot.gravity import gravity_torques
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
-LOOKS_LIKE_PLAY = "backlash"
+LOOKS_LIKE_PLAY = ("backlash", "load")
 """Of a joint that gravity loads from either side: by side alone, where what gives way goes with the load itself."""
 
 
-def follows_loads(effect: str) -> bool:
-    """Whether a change of an effect goes with what gravity does to the arm, so that another load would show as it."""
+def follows_loads(effect: str, variant: str) -> bool:
+    """Whether a change of an effect goes with what gravity does to the arm, so that another load would show as it.
+
+    Play on the side from which the joint came does not: no load knows that.
+    """
     known = effect_named(effect)
-    return effect == LOOKS_LIKE_PLAY or (known is not None and known.family == "elastic")
+    return (effect, variant) == LOOKS_LIKE_PLAY or (known is not None and known.family == "elastic")
 
 
 def other_load(arm: Arm, angles: Array, changes: Sequence[Change], worse_by: float | None = None) -> str:
@@ -41,7 +44,7 @@ def other_load(arm: Arm, angles: Array, changes: Sequence[Change], worse_by: flo
             "One load at the flange turns all drives like this at once: was another gripper, workpiece or cable on it? "
             "Then the drives need not have changed."
         )
-    alike = [each for each in changes if follows_loads(each.effect)]
+    alike = [each for each in changes if follows_loads(each.effect, each.variant)]
     if not alike:
         return ""
     if worse_by is not None and worse_by > INDISTINGUISHABLE_NATS:

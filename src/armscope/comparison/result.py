@@ -67,6 +67,7 @@ class Change:
         until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
         left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
         taken_back_mm: the same if the change were taken back. Where that is more, they have less of it than others.
+        variant: which form of the effect it is (play: "approach" or "load"); empty where there is one only.
     """
 
     effect: str
@@ -82,6 +83,7 @@ class Change:
     until: str = ""
     left_mm: float = math.nan
     taken_back_mm: float = math.nan
+    variant: str = ""
 
     @property
     def is_less(self) -> bool:

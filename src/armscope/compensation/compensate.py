@@ -124,7 +124,7 @@ def compensate_physical(
         turn=model.base_turns(rows.run) if measured else np.broadcast_to(np.eye(3), (len(rows), 3, 3)),
     )
     result = task.run(refused)
-    said = (*notes, *result.notes, *_resting_on_the_tool(model, options), *_foretold(identified))
+    said = (*notes, *result.notes, *_resting_on_the_tool(model, options), *_foretold(identified, measured))
     return replace(result, notes=said, turn_open=options.pose)
 
 
@@ -144,13 +144,20 @@ def _resting_on_the_tool(model: FittedModel, options: Options) -> tuple[str, ...
     return tuple(notes)
 
 
-def _foretold(identified: Identified) -> tuple[str, ...]:
-    """What the arm will miss though the model expects nothing: what rows that took no part were missed by."""
+def _foretold(identified: Identified, measured: bool) -> tuple[str, ...]:
+    """What the arm will miss though the model expects nothing: what rows that took no part were missed by.
+
+    These were measured, so that a constant shift, which counts as the base's, is in none of them.
+    """
     if identified.held_out_mm is None:
         return ()
     missed = f"{identified.held_out_mm:.3g} mm RMS of the distance"
     told = f"rows that took no part were missed by {missed}, the instrument's noise included"
-    return (f"the arm will miss what the model does: {told}",)
+    shifted = (
+        "; in the base frame all points may be off by one more shift and turn, the same for all: recordings do not "
+        "tell an error of the first axis from where the base stands (touch a known point to find it)"
+    )
+    return (f"the arm will miss what the model does: {told}{'' if measured else shifted}",)
 
 
 def _same(points: Array) -> Array:

@@ -11,6 +11,7 @@ from armscope.core.rotations import turned_by
 from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.physics.zero_shift import ZERO_SHIFT
 from armscope.robot import Arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.constants import ORDER
@@ -23,16 +24,21 @@ NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """Of a D-H row, as robot.yaml calls them."""
 
 
+SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}
+"""What sets a zero, and the parameter by which."""
+
+
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     """The zeros of all motors as found: actual angle minus commanded angle, with 95 % intervals (half width).
 
-    Those that were not named, or are but one reading of several, stand as 0.
+    One that jumped stands as it is since then; those that were not named, or are but one reading of several, as 0.
     """
     rows, open_ = [], {each.location for each in unsettled(verdict)}
     for j in range(1, verdict.model.arm.n_motors + 1):
-        found = [p for e in _settled(verdict) if (e.effect, e.location) == (JOINT_OFFSET.name, f"joint {j}")
-                 for p in e.parameters if p.name == "offset" and not implausible(p, e)]  # fmt: skip
-        value, half = (found[0].value, INTERVAL * found[0].stderr) if found else (0.0, float("nan"))
+        found = [p for e in _settled(verdict) if e.effect in SETS_A_ZERO and e.location == f"joint {j}"
+                 for p in e.parameters if p.name == SETS_A_ZERO[e.effect] and not implausible(p, e)]  # fmt: skip
+        value = sum(p.value for p in found)
+        half = INTERVAL * math.hypot(*(p.stderr for p in found)) if found else float("nan")
         rows.append(
             (
                 f"joint {j}",

@@ -71,17 +71,18 @@ class WorkOrder:
         steps = (n for n, task in enumerate(self.tasks, start=1) if task.change == ALL_AT_ONCE[GEOMETRIC])
         return next((f"by the calibration of step {n}, not besides" for n in steps), "")
 
-    def step_of(self, member: str) -> str:
+    def step_of(self, *asked: str) -> str:
         """Where a number that stands in a table belongs, in words: an entry by itself may make the error larger.
 
         Args:
-            member: "effect at location".
+            asked: "effect at location"; of several, the first that is in a step.
 
         Returns:
             The step and what it must not be done without.
         """
         for number, task in enumerate(self.tasks, start=1):
-            if member not in task.members:
+            member = next((each for each in asked if each in task.members), None)
+            if member is None:
                 continue
             if task.change == ALL_AT_ONCE[GEOMETRIC]:
                 return self.by_calibration

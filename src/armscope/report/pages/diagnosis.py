@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from armscope.core.averages import rms
 from armscope.core.files import write_table, write_text, write_yaml
-from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
 from armscope.report.sectioning import write_sections
@@ -21,6 +21,7 @@ from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.verdict.controllers import ur_kinematics
 from armscope.verdict.corrections import (
+    SETS_A_ZERO,
     as_entered,
     corrected_cells,
     corrected_origins,
@@ -74,8 +75,8 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
     named = zeros["cause"] == "named"
-    steps = zeros["joint"].map(lambda joint: subject.order.step_of(f"{JOINT_OFFSET.name} at {joint}")).where(named, "")
-    zeros = zeros.assign(step="" if another_model(verdict) else steps)
+    steps = [subject.order.step_of(*(f"{effect} at {joint}" for effect in SETS_A_ZERO)) for joint in zeros["joint"]]
+    zeros = zeros.assign(step="" if another_model(verdict) else pd.Series(steps).where(named, ""))
     rows = None if rows is None else rows.assign(step=steps_of_rows(rows, subject.order))
     write_table(folder / ZEROS, as_entered(zeros))
     either = {ROWS: rows, ORIGINS: corrected_origins(verdict)}
