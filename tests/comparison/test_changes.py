@@ -223,7 +223,7 @@ def test_what_is_left_of_a_recording_is_its_noise_once_the_change_is_taken_in():
 @pytest.mark.long
 @pytest.mark.parametrize(("worlds", "least", "most"), [(10, 7, 2)])
 def test_a_zero_that_moved_as_far_as_would_be_seen_is_named_and_one_of_half_the_size_is_not(worlds, least, most):
-    """Nine of ten are promised: fewer than 7 of 10 have a probability of 1 %. Of half the size some one in seven are."""
+    """Nine of ten are promised: fewer than 7 of 10 have a probability of 1 %. Of half the size, one in seven are."""
     named = {1.0: 0, 0.5: 0}
     for seed in range(worlds):
         joint, before = 2 + seed % 4, session(9100 + seed)

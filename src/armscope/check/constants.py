@@ -213,9 +213,7 @@ class Quantities(Constants):
         "correlation from which recorded torques are those of gravity",
         "judgement: friction and motion scatter about it",
     )
-    many_times: float = constant(
-        100.0, "between torques and gravity's", "judgement: mass tables are wrong by less, units by more"
-    )
+    many_times: float = constant(100.0, "between torques and gravity's", "judgement: units are off by more, masses not")
 
 
 @dataclass(frozen=True)
@@ -239,15 +237,8 @@ class WrongGravity(Constants):
         "of it that may at most be explained along gravity",
         "judgement: poses in which either way explains as much tell no direction",
     )
-    clear_share_aside: float = constant(
-        0.5,
-        "of those squares where gravity is to point to one of four sides",
-        "judgement: most of them; an axis of a stiff arm that wobbled twice per turn showed 0.28, three arms on a wall "
-        "0.90 to 0.95",
-    )
-    another: float = constant(
-        0.1, "of its size by which two directions of gravity differ that are tried", "judgement: six degrees"
-    )
+    aside: float = constant(0.5, "of them if it points aside", "measured: a wobble has 0.28, walls 0.90 to 0.95")
+    another: float = constant(0.1, "of its size by which directions differ that are tried", "judgement: six degrees")
     left_of_column: float = constant(
         1e-3, "share of a column that geometry and drives must leave", "judgement: rounding is far below"
     )

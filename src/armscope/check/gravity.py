@@ -50,7 +50,7 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
 
     stated, best = explained(arm.gravity), max(_other_ways(arm.gravity), key=explained)
     gains = [-0.5 * numbers * np.log(max(1 - share, np.finfo(float).tiny)) for share in (stated, explained(best))]
-    least = WRONG_GRAVITY.clear_share if np.array_equal(best, -arm.gravity) else WRONG_GRAVITY.clear_share_aside
+    least = WRONG_GRAVITY.clear_share if np.array_equal(best, -arm.gravity) else WRONG_GRAVITY.aside
     if explained(best) <= least or gains[1] < WRONG_GRAVITY.clear_nats:
         return []
     if gains[0] > WRONG_GRAVITY.little * gains[1]:

@@ -77,9 +77,7 @@ class PlausibleSizes(Constants):
     play_rad: float = constant(
         3e-3, "backlash", "convention: makers state one to three minutes of arc; worn gears have ten", unit="rad"
     )
-    wobble_rad: float = constant(
-        3e-3, "tilt of an axis while it turns", "judgement: 0.1 mm run-out at 33 mm", unit="rad"
-    )
+    wobble_rad: float = constant(3e-3, "tilt of a turning axis", "judgement: 0.1 mm run-out at 33 mm", unit="rad")
     drive_rad: float = constant(
         5e-3,
         "a drive's turn under its largest load",
@@ -103,14 +101,9 @@ class PlausibleSizes(Constants):
         "judgement: half of what a drive gives",
         unit="rad",
     )
-    beam_rad: float = constant(
-        2e-3, "turn of a link's end under its largest load", "judgement: as a bearing", unit="rad"
-    )
+    beam_rad: float = constant(2e-3, "turn of a link's end, fully loaded", "judgement: a bearing's", unit="rad")
     loose_target_m: float = constant(
-        5e-4,
-        "by which a target moves on the tool under its own weight",
-        "judgement: the clearance of a nest; a magnet that slides; a bracket that bends",
-        unit="m",
+        5e-4, "by which a target moves on the tool by its weight", "judgement: a nest's clearance", unit="m"
     )
     delay_s: float = constant(0.05, "between command and motion", "judgement: some cycles of a controller", unit="s")
     expansion_per_k: float = constant(
@@ -204,9 +197,7 @@ class FormRules(Constants):
         "judgement: below, what changes is less than noise beside all but the largest tilts",
     )
     level_nest: float = constant(
-        0.1,
-        "share of a target's weight along the bottom of its nest, under which it mostly slides to the lower side",
-        "judgement: the friction of polished steel, 0.1 to 0.2",
+        0.1, "share of a weight along a nest's bottom, from which it slides", "judgement: friction of polished steel"
     )
     rocker_step_deg: float = constant(
         3.0,

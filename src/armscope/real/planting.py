@@ -20,8 +20,8 @@ from armscope.core.types import Array
 from armscope.real.constants import CONCEALING, LARGEST
 from armscope.real.simulated_effects import SimulatedEffects
 from armscope.world.effect_placement import LARGEST_FACTOR
+from armscope.world.judge import ALTERNATIVE_NATS, Judge, Visibility
 from armscope.world.kinds import LEAST_TORQUE, LOAD, Concealed, Kind, number, second_number
-from armscope.world.rivals import ALTERNATIVE_NATS, Judge, Visibility
 from armscope.world.spec import KINDS
 from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized
 

@@ -15,8 +15,8 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.real.prepared_recordings import PreparedRecordings
 from armscope.robot import chain
+from armscope.world.judge import Judge
 from armscope.world.kinds import Concealed, number
-from armscope.world.rivals import Judge
 from armscope.world.spec import KINDS
 from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import frame_columns, make_scene

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.location import Location
+from armscope.world.judge import Judge, Visibility
 from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD, Concealed, Kind, Scene, number
-from armscope.world.rivals import Judge, Visibility
 from armscope.world.spec import KINDS, EffectSpec, WorldSpec
 from armscope.world.strength import Sized, carried, sized
 

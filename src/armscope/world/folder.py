@@ -23,9 +23,9 @@ from armscope.core.averages import rms
 from armscope.core.files import write_table, write_yaml
 from armscope.world.effect_placement import visibilities
 from armscope.world.effects import linear_numbers
+from armscope.world.judge import D_H_VALUES, Visibility
 from armscope.world.kinds import CONSTANT, LOAD, PAYLOAD
 from armscope.world.oracle import Oracle, evidence_of_causes, oracle_of, oracle_rms
-from armscope.world.rivals import D_H_VALUES, Visibility
 from armscope.world.rough import NOT_WRONG, as_stated
 from armscope.world.spec import WorldSpec
 from armscope.world.strength import Sized, fit_frames

@@ -12,8 +12,8 @@ from armscope.core.types import Array, Indices
 from armscope.robot.description_file import load_description
 from armscope.world.constants import ROUGH
 from armscope.world.effect_placement import choose, visibilities, visibilities_in_runs
+from armscope.world.judge import Judge, Visibility
 from armscope.world.kinds import Scene
-from armscope.world.rivals import Judge, Visibility
 from armscope.world.rough import blemishes, rough_description, rough_noise
 from armscope.world.session import random_session
 from armscope.world.spec import LARGEST_PAYLOAD_KG, WorldSpec

@@ -8,13 +8,13 @@ import pytest
 import yaml
 
 from armscope.robot.description_file import load_description
+from armscope.world.judge import ALTERNATIVE_NATS
 from armscope.world.motion import folder
 from armscope.world.motion.catalogue import KINDS, MotionSpec, catalogue
 from armscope.world.motion.folder import build, make
 from armscope.world.motion.recording import independent_share, record
 from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleEffect, VirtualArm, place
-from armscope.world.rivals import ALTERNATIVE_NATS
 from armscope.world.spec import EffectSpec
 from tests.world.motion.arms import FOLDER, arm
 

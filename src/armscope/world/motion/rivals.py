@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array, Indices
+from armscope.world.judge import ALTERNATIVE_NATS, Alternative
 from armscope.world.kinds import joints
 from armscope.world.layout import Geometry
 from armscope.world.motion.links import NOISE_RAD, link_rivals
@@ -23,7 +24,7 @@ from armscope.world.motion.recording import independent_share
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
 from armscope.world.motion.stage import Stage, sign, stage_of
 from armscope.world.motion.virtual_arm import Sized, VirtualArm
-from armscope.world.rivals import ALTERNATIVE_NATS, Alternative, Rival
+from armscope.world.rivals import Rival
 
 MOST_SAMPLES = 600
 SMALL = 1e-4
