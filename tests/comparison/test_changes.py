@@ -188,6 +188,7 @@ def test_two_arms_that_are_unlike_the_others_are_held_against_the_rest():
         assert high - low < 2e-4
 
 
+@pytest.mark.long
 def test_numbers_have_the_digits_that_their_intervals_leave():
     """In a terminal as on the page: an interval as "10 (10 ... 10)" says nothing."""
     found = compare(ARM, {"before": session(31), "after": session(32, offsets={3: 1.0e-2})})
