@@ -44,7 +44,7 @@ PARAMETERS = {
     "zero_shift": [("jump", "rad", -5e-4), ("time", "s", 4711.0)],
     "instrument_scale": [("scale", "m/m", -1.5e-5)],
     "payload_error": [("mass", "kg", 2.0)],
-    "loose_target": [("play_xy", "mm", 0.3)],
+    "loose_target": [("play_across", "mm", 0.3), ("x", "", 0.0), ("y", "", 0.0), ("z", "", 1.0)],
     "holder_sag": [("sag_x", "mm", 0.3), ("sag_y", "mm", 0.0)],
     "parallelogram_geometry": [("rod", "mm", 0.4), ("rocker", "mm", -0.2)],
 }  # fmt: skip
@@ -66,7 +66,7 @@ SAID = {
     "base_shift": "the base jumped by 0.50 mm at 4711 s",
     "tool_shift": "the tool jumped by 0.50 mm at row 85",
     "zero_shift": "the zero of joint 2 jumped by −0.50 mrad at 4711 s",
-    "loose_target": "the target is loose on the tool: it falls by 0.30 mm across z, to its lower side",
+    "loose_target": "the target is loose on the tool: it falls by 0.30 mm across the tool's z, to its lower side",
     "holder_sag": "what holds the target bends under its own weight, by 0.30 mm along the tool's x",
     "instrument_scale": "the instrument measures 15 millionths (ppm) too short",
 }

@@ -57,7 +57,7 @@ BASE_TWISTS = {
 CHECKED_BELOW = {
     "backlash/load", "joint_compliance", "bearing_compliance", "base_compliance", "axis_wobble", "link_geometry",
     "link_bending", "thermal_expansion", "parallelogram_geometry", "instrument_scale", "payload_error",
-    "payload_error/centre", "holder_sag", "loose_target/x", "loose_target/xy",
+    "payload_error/centre", "holder_sag", "loose_target/along", "loose_target/across",
 }  # fmt: skip
 
 
@@ -232,15 +232,18 @@ def test_what_is_loose_on_the_tool_moves_in_the_last_frame_by_how_that_stands_to
     turns = np.array([arm.frames(arm.actuation @ q)[1][-1][:3, :3] for q in scene.session.commanded])
     weight = turns.transpose(0, 2, 1) @ np.array([0.0, 0.0, -1.0])
     sag = drawn(scene, "holder_sag", "tool")
-    by_hand = turns @ (weight * [sag.values["sag_x"], sag.values["sag_y"], 0.0])[:, :, None]
-    np.testing.assert_allclose(moved(scene, sag), by_hand[:, :, 0], atol=EXACT_M)
-    for kind, axes in (("loose_target/x", [0]), ("loose_target/xy", [0, 1])):
-        (play,) = drawn(scene, kind, "tool").values.values()
-        steep = np.linalg.norm(weight[:, axes], axis=1)
-        shift = np.zeros((len(weight), 3))
-        shift[:, axes] = play * np.where(steep > 0.1, 1 / steep, 0)[:, None] * weight[:, axes]
+    x, y, xy, xz, yz = (sag.values[f"sag_{name}"] for name in ("x", "y", "xy", "xz", "yz"))
+    by_hand = np.einsum("nij,nj->ni", turns, weight @ np.array([[x, xy, xz], [xy, y, yz], [xz, yz, 0.0]]))
+    np.testing.assert_allclose(moved(scene, sag), by_hand, atol=EXACT_M)
+    for way in ("along", "across"):
+        nest = drawn(scene, f"loose_target/{way}", "tool")
+        play, *direction, least = nest.values.values()
+        onto = np.outer(direction, direction)
+        pulled = weight @ (onto if way == "along" else np.eye(3) - onto)
+        steep = np.linalg.norm(pulled, axis=1)
+        shift = play * np.where(steep > least, 1 / steep, 0)[:, None] * pulled
         by_hand = np.einsum("nij,nj->ni", turns, shift)
-        np.testing.assert_allclose(moved(scene, drawn(scene, kind, "tool")), by_hand, atol=EXACT_M)
+        np.testing.assert_allclose(moved(scene, nest), by_hand, atol=EXACT_M)
 
 
 def test_a_heavier_payload_bends_a_soft_joint_further_and_a_stiff_arm_not_at_all():

@@ -102,9 +102,7 @@ class PlausibleSizes(Constants):
         unit="rad",
     )
     beam_rad: float = constant(2e-3, "turn of a link's end, fully loaded", "judgement: a bearing's", unit="rad")
-    loose_target_m: float = constant(
-        5e-4, "by which a target moves on the tool by its weight", "judgement: a nest's clearance", unit="m"
-    )
+    loose_target_m: float = constant(5e-4, "by which a target falls", "judgement: a nest's clearance", unit="m")
     delay_s: float = constant(0.05, "between command and motion", "judgement: some cycles of a controller", unit="s")
     expansion_per_k: float = constant(
         30e-6, "growth of a link", "convention: steel 11-12, aluminium 23-24 millionths per kelvin", unit="1/K"
@@ -196,9 +194,9 @@ class FormRules(Constants):
         "of a moment across a bearing that must change from row to row, to show that the bearing tilts under it",
         "judgement: below, what changes is less than noise beside all but the largest tilts",
     )
-    level_nest: float = constant(
-        0.1, "share of a weight along a nest's bottom, from which it slides", "judgement: friction of polished steel"
-    )
+    nest_step_deg: float = constant(10.0, "between directions of nests", "derived: half a step is 2 % less along it")
+    along_an_axis: float = constant(0.998, "from which a direction is called by its axis", "derived: 4 degrees")
+    level_nest: float = constant(0.1, "slope from which a target slides", "judgement: friction of polished steel")
     rocker_step_deg: float = constant(
         3.0,
         "between directions of the rocker on the forearm that are tried where robot.yaml does not state them",

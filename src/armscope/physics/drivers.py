@@ -85,17 +85,31 @@ def _quadrupole(number: int) -> Array:
     return np.asarray(np.diag(diagonal))
 
 
+def _weight(scene: LoadedArm) -> Array:
+    """(N, 3) share of a weight that pulls along each axis of the tool, -1 to 1."""
+
+    def compute() -> Array:
+        down = scene.arm.gravity / np.linalg.norm(scene.arm.gravity)
+        return np.asarray(np.swapaxes(scene.nominal.tool_rotation, 1, 2) @ down)
+
+    return np.asarray(scene.remember("weight in the tool", compute))
+
+
 def _pull(scene: LoadedArm, axis: int) -> Array:
-    """Share of a weight that pulls along an axis of the tool, -1 to 1."""
-    down = scene.arm.gravity / np.linalg.norm(scene.arm.gravity)
-    return np.asarray(scene.nominal.tool_rotation[:, :, axis] @ down)
+    return _weight(scene)[:, axis]
 
 
-def _side(scene: LoadedArm, axis: int, other_axis: int | None = None) -> Array:
-    """How far something that slides along one axis of the tool, or in the plane of two, lies to the lower side."""
-    pull = _pull(scene, axis)
-    across = 0.0 if other_axis is None else _pull(scene, other_axis)
-    return np.asarray(pull / np.sqrt(pull**2 + across**2 + FORM.level_nest**2))
+def _side_along(scene: LoadedArm, x: float, y: float, z: float) -> Array:
+    """How far something that slides along a direction of the tool lies to its lower end, -1 to 1."""
+    pull = _weight(scene) @ np.array([x, y, z])
+    return np.asarray(pull / np.sqrt(pull**2 + FORM.level_nest**2))
+
+
+def _side_across(scene: LoadedArm, axis: int, x: float, y: float, z: float) -> Array:
+    """The same of what slides in the plane across a direction: how far it lies along an axis of the tool."""
+    pull, across = _weight(scene), np.array([x, y, z])
+    pull = pull - np.outer(pull @ across, across)
+    return np.asarray(pull[:, axis] / np.sqrt(np.sum(pull**2, axis=1) + FORM.level_nest**2))
 
 
 def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:
@@ -135,7 +149,8 @@ KINDS: dict[str, DriverKind] = {
     "attitude": DriverKind(_attitude),
     "attitude twice": DriverKind(_attitude_twice),
     "pull on the target": DriverKind(_pull),
-    "side of the nest": DriverKind(_side),
+    "side along": DriverKind(_side_along),
+    "side across": DriverKind(_side_across),
     "lost motion": DriverKind(_lost_motion, needs="approach"),
     "spline": DriverKind(_spline),
     **LOADS,

@@ -6,19 +6,27 @@ is a constant one, which the base takes up: so a holder's sag is told against th
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 
-from armscope.physics.clause import clear_ones
+from armscope.core.types import Array
+from armscope.physics.clause import Told, clear_ones
 from armscope.physics.constants import FORM, PLAUSIBLE
-from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Term, term
+from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-NESTS = {"x": "along x", "y": "along y", "z": "along z", "xy": "across z", "yz": "across x", "xz": "across y"}
-"""Where a target has play: along an axis, as a slide has it, or in a plane, as a pin in a hole."""
+Way = Literal["along", "across"]
+"""How a target has play: along a direction of the tool, as a slide, or in the plane across it, as a pin in a hole."""
+ATTITUDE = "how the tool stands to gravity"
+"""What both follow, in words."""
+ANYHOW = "turned"
+"""The variant of a holder that is softest along no axis of the tool."""
+_AXES = ("tx", "ty", "tz")
 
 
 def tool_turns_over(arm: Arm, recordings: Recordings) -> bool:
@@ -30,39 +38,99 @@ def tool_turns_over(arm: Arm, recordings: Recordings) -> bool:
     return bool(np.std(pulls, axis=1).max() > FORM.varying_load)
 
 
-def _play(axes: str) -> Term:
-    """A target that lies on the lower side of its nest."""
-    plane = ["xyz".index(axis) for axis in axes]
-    falls = (
-        (Direction("tool", f"t{axis}"), Driver("side of the nest", tuple(sorted(plane, key=lambda n: n != at))))
-        for axis, at in zip(axes, plane, strict=True)
+def nest(way: Way, direction: Array, multiplicity: int = 1) -> Placed:
+    """A target that lies on the lower side of its nest.
+
+    Args:
+        way: how it has play.
+        direction: (3,) in the tool's axes, of unit length.
+        multiplicity: how many directions compete.
+
+    Returns:
+        The effect in place.
+    """
+    x, y, z = (round(float(each), 4) + 0.0 for each in direction)
+    if way == "along":
+        falls = [
+            Product(Direction("tool", axis), Driver("side along", (x, y, z)), n)
+            for axis, n in zip(_AXES, (x, y, z), strict=True)
+        ]
+    else:
+        falls = [Product(Direction("tool", axis), Driver("side across", (n, x, y, z))) for n, axis in enumerate(_AXES)]
+    seen = [each for each, n in zip(falls, (x, y, z), strict=True) if (n if way == "along" else abs(n) < 1)]
+    play = Term(f"play_{way}", "mm", 1e-3, tuple(seen), PLAUSIBLE.loose_target_m)
+    scanned = (("x", "", x), ("y", "", y), ("z", "", z))
+    return Placed(
+        LOOSE_TARGET, "tool", (play,), (1.0,), ATTITUDE, scanned, multiplicity, variant=f"{way} {x:.3f} {y:.3f} {z:.3f}"
     )
-    return term(f"play_{axes}", "mm", *falls, si=1e-3, plausible=PLAUSIBLE.loose_target_m)
+
+
+@functools.cache
+def nests_anyhow() -> dict[Way, tuple[Placed, ...]]:
+    """Nests in directions that are spread evenly over half a sphere (Fibonacci's lattice)."""
+    count = round(2 * np.pi / np.radians(FORM.nest_step_deg) ** 2)
+    n = np.arange(count)
+    z, turn = (n + 0.5) / count, n * np.pi * (3 - np.sqrt(5))
+    level = np.sqrt(1 - z**2)
+    directions = np.stack([level * np.cos(turn), level * np.sin(turn), z], axis=1)
+    ways: tuple[Way, ...] = ("along", "across")
+    return {way: tuple(nest(way, direction, count) for direction in directions) for way in ways}
+
+
+def finer_nests(placed: Placed) -> list[Placed]:
+    """Nests in directions about that of another one, less than a step from it; none of another effect."""
+    if placed.effect is not LOOSE_TARGET:
+        return []
+    middle = np.array([value for _, _, value in placed.scanned])
+    across = np.linalg.svd(middle[None])[2][1:]
+    turns = np.arange(8) * np.pi / 4
+    around = np.cos(turns)[:, None] * across[0] + np.sin(turns)[:, None] * across[1]
+    tilts = np.radians(FORM.nest_step_deg) * np.array([0.5, 0.2])
+    found = [middle * np.cos(tilt) + each * np.sin(tilt) for tilt in tilts for each in around]
+    way: Way = "along" if placed.terms[0].name == "play_along" else "across"
+    return [nest(way, each, max(placed.multiplicity, len(nests_anyhow()[way]))) for each in found]
 
 
 def _place_nests(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    """Along the tool's axes and across them; others are scanned by the diagnosis."""
     if tool_turns_over(arm, recordings):
-        for axes in NESTS:
-            yield Placed(LOOSE_TARGET, "tool", (_play(axes),), (1.0,), ATTITUDE, variant=axes)
+        for axis in np.eye(3):
+            yield nest("along", axis)
+            yield nest("across", axis)
+
+
+def _sag(name: str, one: int, other: int) -> Term:
+    """Along an axis by the share of weight along another one, and the other way round: what is elastic is symmetric."""
+    ways = {(one, other), (other, one)}
+    products = (Product(Direction("tool", _AXES[to]), Driver("pull on the target", (by,))) for to, by in sorted(ways))
+    return term(f"sag_{name}", "mm", *products, si=1e-3, plausible=PLAUSIBLE.loose_target_m)
 
 
 def _place_holder(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if tool_turns_over(arm, recordings):
-        sag = tuple(
-            term(
-                f"sag_{axis}",
-                "mm",
-                (Direction("tool", f"t{axis}"), Driver("pull on the target", (n,))),
-                si=1e-3,
-                plausible=PLAUSIBLE.loose_target_m,
-            )
-            for n, axis in enumerate("xy")
-        )
-        yield Placed(HOLDER_SAG, "tool", sag, (1.0, 1.0), ATTITUDE, partly_unseen=True)
+        along = (_sag("x", 0, 0), _sag("y", 1, 1))
+        turned = (_sag("xy", 0, 1), _sag("xz", 0, 2), _sag("yz", 1, 2))
+        yield Placed(HOLDER_SAG, "tool", along, (1.0,) * 2, ATTITUDE, partly_unseen=True)
+        yield Placed(HOLDER_SAG, "tool", (*along, *turned), (1.0,) * 5, ATTITUDE, variant=ANYHOW, partly_unseen=True)
 
 
-ATTITUDE = "how the tool stands to gravity"
-"""What both follow, in words."""
+def _falls(told: Told) -> str:
+    way = "along" if "play_along" in told.numbers else "across"
+    x, y, z = (told.numbers[axis].value for axis in "xyz")
+    named = [axis for axis, part in zip("xyz", (x, y, z), strict=True) if abs(part) > FORM.along_an_axis]
+    where = f"the tool's {named[0]}" if named else f"({x:.2f}, {y:.2f}, {z:.2f}) in the tool's axes".replace("-", "−")
+    return (
+        f"the target is loose on the tool: it falls by {told.numbers[f'play_{way}']} {way} {where}, to its lower side"
+    )
+
+
+def _bends(told: Told) -> str:
+    """How much more it gives way one way than another, whichever way these are."""
+    x, y, xy, xz, yz = (told.numbers[f"sag_{name}"] for name in ("x", "y", "xy", "xz", "yz"))
+    give = np.linalg.eigvalsh([[x.value, xy.value, xz.value], [xy.value, y.value, yz.value], [xz.value, yz.value, 0.0]])
+    most = type(x)(float(give[-1] - give[0]), x.unit)
+    return f"what holds the target bends under its own weight, by {most} more one way than another"
+
 
 LOOSE_TARGET = Effect(
     "loose_target",
@@ -77,11 +145,9 @@ LOOSE_TARGET = Effect(
         change="target",
         instruction="Fix the target (nest, magnet, adapter) firmly on the tool, and measure again.",
     ),
-    clauses=tuple(
-        f"the target is loose on the tool: it falls by {{play_{axes}}} {where}, to its lower side"
-        for axes, where in NESTS.items()
-    ),
-    labels={f"play_{axes}": f"to the lower side {where}" for axes, where in NESTS.items()},
+    clauses=(_falls, "the target is loose on the tool"),
+    labels={"play_along": "to the lower side", "play_across": "to the lower side"}
+    | {axis: f"{axis} of that direction, in the tool's axes" for axis in "xyz"},
     atlas="gravity load",
     nonnegative=True,
 )
@@ -90,8 +156,8 @@ HOLDER_SAG = Effect(
     "holder_sag",
     "instrument",
     _place_holder,
-    "What holds the target bends under its own weight: more along the tool's x and y than along its z, by so much.",
-    "Push the target by hand with the target's weight along x, y and z, and watch its reading.",
+    "What holds the target bends under its own weight: more one way than another, by so much.",
+    "Push the target by hand along the tool's x, y and z, and watch its reading.",
     Cure(
         "Stiffen what holds the target, or use a lighter target, and measure again.",
         otherwise="Where it is the tool itself that bends, let the corrected model's inverse kinematics compute the "
@@ -100,12 +166,14 @@ HOLDER_SAG = Effect(
         instruction="Stiffen what holds the target on the tool, and measure again.",
     ),
     clauses=(
+        _bends,
         clear_ones(
             "what holds the target bends under its own weight, {}", sag_x="along the tool's x", sag_y="along its y"
         ),
         "what holds the target on the tool bends under its own weight",
     ),
-    labels={f"sag_{axis}": f"along {axis} more than along z" for axis in "xy"},
+    labels={f"sag_{axis}": f"along {axis} more than along z" for axis in "xy"}
+    | {f"sag_{a}{b}": f"along {a} by weight along {b}, and the other way round" for a, b in ("xy", "xz", "yz")},
     atlas="gravity load",
 )
 

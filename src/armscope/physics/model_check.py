@@ -26,8 +26,6 @@ DEEPEST_DRIVER = 4
 """Levels of drivers of drivers."""
 LARGEST_ARGUMENT = 1e12
 """Of a driver: seconds since 1970 are the largest numbers that stand there."""
-AXIS = ("axis", "other_axis")
-"""Arguments of drivers that are one of the axes of a frame, from 0."""
 RUNS = ("runs", "later")
 """What arguments are called that are any number of runs."""
 
@@ -170,11 +168,11 @@ class Reader:
         if name == "location":
             self._frame(value, ("base", "joint"), place)
             return value
-        if name in ("j", "link", *AXIS, "row", "column"):
+        if name in ("j", "link", "axis", "row", "column"):
             motors = self.arm.n_joints if kind.startswith("chain") else self.arm.n_motors
-            most = {"j": motors, "link": self.arm.n_joints, **dict.fromkeys(AXIS, 5 if kind == "bend" else 2)}
+            most = {"j": motors, "link": self.arm.n_joints, "axis": 5 if kind == "bend" else 2}
             most |= dict.fromkeys(("row", "column"), 5 if kind == "attitude twice" else 3)
-            least = 0 if name in AXIS else 1
+            least = 0 if name == "axis" else 1
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most[name]:
                 raise InputError(self.source, place, value, f"{name} is a whole number from {least} to {most[name]}")
             return value

@@ -25,13 +25,14 @@ gravity (virtual work), T the temperature, t the time. Lengths hold at 20 C.
 | parallelogram_geometry | parallelogram | rod mm, rocker mm | bars longer, loop closed by Newton's method |
 | instrument_scale | instrument | scale m/m | measured = (1 + scale) true |
 | payload_error | payload | mass kg; variant centre: com_x com_y com_z mm | added to what is stated |
-| holder_sag | tool | sag_x sag_y mm | the target slides along x and y of the last frame, see below |
-| loose_target | tool | play_x mm; variant xy: play_xy mm | the target falls along x, or across z, see below |
+| holder_sag | tool | sag_x sag_y sag_xy sag_xz sag_yz mm | the target slides on the tool, see below |
+| loose_target | tool | play_along mm; variant across: play_across mm | the target falls over in its nest, see below |
 
 axis_wobble tilts axis j, before it turns, by amplitude cos(per_turn theta - phase) about the fixed direction
 (cos direction, sin direction, 0) of the frame that carries it; theta is the chain's angle.
-holder_sag: along each axis by sag x the share of a weight that pulls along it, as the nominal last frame stands.
-loose_target: by play to the lower side, where the axis or the plane leans by a tenth at least.
+holder_sag: by a symmetric matrix of these x the share of a weight that pulls along each axis of the nominal last frame,
+against z, whose own entry is zero. loose_target: by play to the lower side, along a direction of that frame or in the
+plane across it (nest_x, nest_y, nest_z), where that leans by least_slope at least.
 link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything that hangs on D-H
 frame j (its own mass included), turns there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F,
 the parts along e left out; bent by segments, so to 0.4 %.

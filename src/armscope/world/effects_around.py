@@ -90,32 +90,56 @@ def weight_along_tool(scene: Scene) -> Array:
     return np.asarray(np.swapaxes(scene.tool_turn, 1, 2) @ down)
 
 
-def lower_side(pull: Array) -> Array:
-    """(N, k) where something lies that slides along k axes, each way by one; in the middle where that is nearly level.
+def lower_side(pull: Array, least: float) -> Array:
+    """(N, 3) where something lies that slides about, by one at most; in the middle where that is nearly level.
 
     Args:
-        pull: (N, k) share of its weight along each of them.
+        pull: (N, 3) what of its weight pulls in the directions in which it slides.
+        least: from which it slides.
     """
     steep = np.linalg.norm(pull, axis=1, keepdims=True)
-    return np.where(steep > LEAST_SLOPE, pull / np.maximum(steep, LEAST_SLOPE), 0.0)
+    return np.where(steep > least, pull / np.maximum(steep, least), 0.0)
 
 
-LEAST_SLOPE = 0.1
-"""Dry friction of polished steel."""
+def _stem(rng: np.random.Generator) -> Array:
+    """(3,) a direction of the tool, anyhow."""
+    direction = rng.normal(size=3)
+    return np.asarray(direction / np.linalg.norm(direction))
+
+
+def _draw_holder(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
+    """A stem that bends across itself; what it does alike along all axes is taken off, which the base takes up."""
+    stem = _stem(rng)
+    sag = 3e-4 * (np.eye(3) - np.outer(stem, stem))
+    sag -= sag[2, 2] * np.eye(3)
+    return {f"sag_{name}": float(sag[at]) for name, at in SAGS.items()}
 
 
 def _hide_holder(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    sag = np.zeros((3, 3))
+    for name, (one, other) in SAGS.items():
+        sag[one, other] = sag[other, one] = values[f"sag_{name}"]
+    for axis, shift in zip("xyz", (weight_along_tool(scene) @ sag).T, strict=True):
+        hidden.move(f"target {axis}", shift)
+
+
+SAGS = {"x": (0, 0), "y": (1, 1), "xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
+"""Entries of the matrix by which a holder bends, of which the last one on the diagonal is zero."""
+
+
+def _draw_nest(way: str, rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
+    direction = dict(zip(("nest_x", "nest_y", "nest_z"), _stem(rng).tolist(), strict=True))
+    return {f"play_{way}": 3e-4, **direction, "least_slope": float(rng.uniform(0.02, 0.2))}
+
+
+def _hide_nest(way: str, hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
+    """A target that falls from one side of its nest to the other, along a direction or in the plane across it."""
+    direction = np.array([values["nest_x"], values["nest_y"], values["nest_z"]])
     pull = weight_along_tool(scene)
-    for n, axis in enumerate("xy"):
-        hidden.move(f"target {axis}", values[f"sag_{axis}"] * pull[:, n])
-
-
-def _hide_nest(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
-    """A target that falls from one side of its nest to the other."""
-    (axes,) = (name.removeprefix("play_") for name in values)
-    side = lower_side(weight_along_tool(scene)[:, ["xyz".index(axis) for axis in axes]])
-    for n, axis in enumerate(axes):
-        hidden.move(f"target {axis}", values[f"play_{axes}"] * side[:, n])
+    along = np.outer(pull @ direction, direction)
+    side = lower_side(along if way == "along" else pull - along, values["least_slope"])
+    for axis, shift in zip("xyz", (values[f"play_{way}"] * side).T, strict=True):
+        hidden.move(f"target {axis}", shift)
 
 
 BASE: tuple[Kind, ...] = (
@@ -134,21 +158,18 @@ BASE: tuple[Kind, ...] = (
 """In the order of the catalogue."""
 
 
-def _draw_play(axes: str, rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
-    return {f"play_{axes}": 3e-4}
-
-
+_DIRECTION = tuple(Parameter(name, "", scales=False) for name in ("nest_x", "nest_y", "nest_z", "least_slope"))
 TARGET: tuple[Kind, ...] = (
     Kind(
-        "holder_sag", "", LOAD, tuple(Parameter(f"sag_{axis}", "mm", 1e-3) for axis in "xy"), (), only("tool"),
-        lambda rng, scene, place: {f"sag_{axis}": float(rng.normal(0, 3e-4)) for axis in "xy"}, _hide_holder,
+        "holder_sag", "", LOAD, tuple(Parameter(f"sag_{name}", "mm", 1e-3) for name in SAGS), (), only("tool"),
+        _draw_holder, _hide_holder,
     ),
     *(
         Kind(
-            "loose_target", axes, LOAD, (Parameter(f"play_{axes}", "mm", 1e-3),), (), only("tool"),
-            partial(_draw_play, axes), _hide_nest,
+            "loose_target", way, LOAD, (Parameter(f"play_{way}", "mm", 1e-3), *_DIRECTION), (), only("tool"),
+            partial(_draw_nest, way), partial(_hide_nest, way),
         )
-        for axes in ("x", "xy")
+        for way in ("along", "across")
     ),
 )  # fmt: skip
 """In the order of the catalogue."""

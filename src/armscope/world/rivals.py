@@ -14,7 +14,7 @@ import numpy as np
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.world.effects_around import lower_side, weight_along_tool
+from armscope.world.effects_around import SAGS, weight_along_tool
 from armscope.world.effects_of_links import REFERENCE_C, close_loop
 from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, TARGET_FREEDOMS, Layout, all_freedoms, segment_hinges
@@ -70,7 +70,7 @@ class Patterns:
 
 
 def rivals(scene: Scene) -> list[Rival]:
-    """Every effect of the vocabulary at every place (meshes of gears and payload errors left out)."""
+    """Every effect of the vocabulary at every place (meshes of gears, nests and payload errors left out)."""
     patterns = Patterns(scene)
     found = [*_base_rivals(patterns), *_joint_rivals(patterns), *_link_rivals(patterns)]
     found += _target_rivals(patterns)
@@ -93,12 +93,10 @@ def _base_rivals(patterns: Patterns) -> Iterator[Rival]:
 
 
 def _target_rivals(patterns: Patterns) -> Iterator[Rival]:
+    """A nest's direction enters it otherwise than in proportion: it is left out."""
     pull, along = weight_along_tool(patterns.scene), [patterns.of(name) for name in TARGET_FREEDOMS]
-    yield _rival("holder_sag", "tool", *(along[n] * pull[:, n, None] for n in (0, 1)))
-    for axes in ([0], [1], [2], [0, 1], [1, 2], [0, 2]):
-        side = lower_side(pull[:, axes])
-        falls = np.sum([along[n] * side[:, at, None] for at, n in enumerate(axes)], axis=0)
-        yield _rival("loose_target", "tool", falls)
+    ways = [{(one, other), (other, one)} for one, other in SAGS.values()]
+    yield _rival("holder_sag", "tool", *(np.sum([along[a] * pull[:, b, None] for a, b in way], axis=0) for way in ways))
 
 
 def _joint_rivals(patterns: Patterns) -> Iterator[Rival]:

@@ -1,4 +1,4 @@
-"""What does not compete yet, and promises something: gears' meshes, jumps, a drift's next pause, finer directions."""
+"""What does not compete yet, and promises something: meshes, nests, jumps, a drift's next pause, finer directions."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from armscope.diagnosis.scans.change_points import jumps
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.gear_mesh import mesh_lines
+from armscope.diagnosis.scans.loose_nests import loose_nests
 from armscope.diagnosis.scans.pauses import pauses
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
@@ -36,7 +37,11 @@ def scanned_candidates(context: ScanContext, search: Search, best: Hypothesis, m
     steady = [search.with_background(each, FAMILIES.index(DRIFT), 0) for each in given]
     scene = Scene(context.model.arm, context.recordings)
     finer = [bars for c in sorted(best.candidates) for bars in finer_bars(scene, context.space.placed[c])]
-    for found in (mesh_lines(context, given, most), jumps(context, steady), _paused(context, search, best), finer):
+    scans = (
+        mesh_lines(context, given, most), loose_nests(context, given), jumps(context, steady),
+        _paused(context, search, best), finer,
+    )  # fmt: skip
+    for found in scans:
         for placed in found:
             if (placed.key, placed.variant) not in known:
                 new[(placed.key, placed.variant)] = placed
