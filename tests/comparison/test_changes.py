@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.comparison import compare
+from armscope.comparison import changes, compare
 from armscope.comparison.changes import _kind
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.result import Valued
@@ -251,3 +251,15 @@ def test_a_wave_of_which_nothing_sure_is_left_went_though_one_of_its_numbers_sta
     wave = [number("cosine_1", cosine, (2.9e-6, 3.4e-6)), number("sine_1", sine, (7.5e-6, 7.42e-6))]
     assert _kind(wave, inside, outside) == "went"
     assert _kind([number("sine_1", (3.01e-4, 8e-5), (7.5e-6, 7.42e-6))], inside, outside) == "shrank"
+
+
+@pytest.mark.parametrize(("zeros", "kind"), [((0.0, 9e-4), "changed"), ((9e-4, 0.0), "went")])
+def test_what_leaves_less_when_it_is_taken_back_has_not_gone(zeros, kind, monkeypatch):
+    """Levels may be known too surely: a crash was told as a repair, since the later level was the smaller."""
+    monkeypatch.setattr(changes, "_kind", lambda *_: "went")
+    tables = {
+        name: session(8300 + n, offsets={3: zero}) for n, (name, zero) in enumerate(zip("ab", zeros, strict=True))
+    }
+    (found,) = compare(ARM, tables).changes
+    assert (found.location, found.kind) == ("joint 3", kind)
+    assert found.is_less == (kind == "went")

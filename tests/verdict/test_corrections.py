@@ -134,6 +134,17 @@ def test_what_is_one_reading_of_several_is_not_entered() -> None:
         assert len(unsettled(told)) == (0 if entered else 2)
 
 
+def test_a_zero_that_jumped_stands_in_the_table_as_it_is_since_then() -> None:
+    """It stood as zero there, beside a step that said "set its zero anew"."""
+    jump = found("zero_shift", "joint 2", Parameter("jump", "rad", 1.5e-3, 3e-5))
+    before = found("joint_offset", "joint 2", Parameter("offset", "rad", -1e-3, 4e-5))
+    for effects, mrad, half in (((jump,), 1.5, 1.96 * 0.03), ((before, jump), 0.5, 1.96 * 0.05)):
+        zeros = zero_offsets(saying(build_arm(nominal_description("ur5e")), *effects))
+        assert zeros["actual_minus_commanded_mrad"][1] == pytest.approx(mrad)
+        assert zeros["half_interval_95_mrad"][1] == pytest.approx(half, rel=0.01)
+        assert zeros["cause"].tolist() == ["not named", "named", *["not named"] * 4]
+
+
 def test_what_the_poses_to_measure_next_ask_about_is_not_entered() -> None:
     """Seen: "One question about a minor effect is open" in the report, and the row of that link among the corrected."""
     link = found("link_geometry", "link 3", Parameter("alpha", "rad", -1e-3, 1e-5), Parameter("a", "mm", 0.5, 0.01))

@@ -237,7 +237,7 @@ class WrongGravity(Constants):
         "of it that may at most be explained along gravity",
         "judgement: poses in which either way explains as much tell no direction",
     )
-    aside: float = constant(0.5, "of them if it points aside", "measured: a wobble has 0.28, walls 0.90 to 0.95")
+    aside: float = constant(0.5, "of them if it points aside", "judgement: most; in view, a wobble has 0.28, walls 0.9")
     another: float = constant(0.1, "of its size by which directions differ that are tried", "judgement: six degrees")
     left_of_column: float = constant(
         1e-3, "share of a column that geometry and drives must leave", "judgement: rounding is far below"

@@ -48,27 +48,26 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
         clear = np.linalg.norm(beyond, axis=0) > WRONG_GRAVITY.left_of_column * np.linalg.norm(giving, axis=0)
         return 1 - _squares_left(beyond[:, clear], left) / max(float(left @ left), np.finfo(float).tiny)
 
-    stated, best = explained(arm.gravity), max(_other_ways(arm.gravity), key=explained)
-    gains = [-0.5 * numbers * np.log(max(1 - share, np.finfo(float).tiny)) for share in (stated, explained(best))]
-    least = WRONG_GRAVITY.clear_share if np.array_equal(best, -arm.gravity) else WRONG_GRAVITY.aside
-    if explained(best) <= least or gains[1] < WRONG_GRAVITY.clear_nats:
+    ways = [arm.gravity, *_other_ways(arm.gravity)]
+    shares = [explained(way) for way in ways]
+    gains = [-0.5 * numbers * np.log(max(1 - share, np.finfo(float).tiny)) for share in shares]
+    best = 1 + int(np.argmax(shares[1:]))
+    least = WRONG_GRAVITY.clear_share if best == 1 else WRONG_GRAVITY.aside
+    if shares[best] <= least or gains[best] < max(WRONG_GRAVITY.clear_nats, gains[0] / WRONG_GRAVITY.little):
         return []
-    if gains[0] > WRONG_GRAVITY.little * gains[1]:
-        return []
-    return [_told(arm.gravity, best, stated, explained(best))]
+    return [_told(ways[best], best == 1, shares[0], shares[best])]
 
 
 def _other_ways(gravity: Array) -> list[Array]:
-    """Gravity of the same size the other way, and along each axis of the base that it is not along as stated."""
+    """Gravity of the same size the other way, first, and along each axis of the base that it is not along as stated."""
     size = float(np.linalg.norm(gravity))
     along = [size * sign * axis for axis in np.eye(3) for sign in (1, -1)]
     others = [each for each in along if np.linalg.norm(each - gravity) > WRONG_GRAVITY.another * size]
     return [-gravity, *(each for each in others if np.linalg.norm(each + gravity) > WRONG_GRAVITY.another * size)]
 
 
-def _told(gravity: Array, best: Array, stated: float, explained: float) -> Suspicion:
+def _told(best: Array, around: bool, stated: float, explained: float) -> Suspicion:
     """What joints give way to instead, and by how much that explains more."""
-    around = np.array_equal(best, -gravity)
     wanted = ", ".join(f"{each + 0.0:.3g}" for each in best)
     seem = "against gravity" if around else "to gravity along another axis of the base"
     statement = (

@@ -22,6 +22,7 @@ from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options, PathTask, refuse
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.physics.loose_target import HOLDER_SAG, LOOSE_TARGET
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
 
@@ -124,7 +125,13 @@ def compensate_physical(
         turn=model.base_turns(rows.run) if measured else np.broadcast_to(np.eye(3), (len(rows), 3, 3)),
     )
     result = task.run(refused)
-    said = (*notes, *result.notes, *_resting_on_the_tool(model, options), *_foretold(identified, measured))
+    said = (
+        *notes,
+        *result.notes,
+        *_resting_on_the_tool(model, options),
+        *_of_the_target(model),
+        *_foretold(identified, measured),
+    )
     return replace(result, notes=said, turn_open=options.pose)
 
 
@@ -142,6 +149,18 @@ def _resting_on_the_tool(model: FittedModel, options: Options) -> tuple[str, ...
             "orientations are right but for one turn about the flange's axes, the same at all points"
         )
     return tuple(notes)
+
+
+def _of_the_target(model: FittedModel) -> tuple[str, ...]:
+    """What moves the target on the tool moves a tool in its place only where that is held as the target was."""
+    held = {
+        LOOSE_TARGET: "the target is loose: these commands bring it where it was meant to go, a tool that is not loose "
+        "they do not; --frame base leaves that out",
+        HOLDER_SAG: "what held the target bends under its own weight: these commands are right for a tool that bends "
+        "as much, and off by that for one that does not",
+    }
+    effects = [part.placed.effect for part in model.parts]
+    return tuple(note for effect, note in held.items() if effect in effects)
 
 
 def _foretold(identified: Identified, measured: bool) -> tuple[str, ...]:

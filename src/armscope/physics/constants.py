@@ -196,7 +196,9 @@ class FormRules(Constants):
     )
     nest_step_deg: float = constant(10.0, "between directions of nests", "derived: half a step is 2 % less along it")
     along_an_axis: float = constant(0.998, "from which a direction is called by its axis", "derived: 4 degrees")
-    level_nest: float = constant(0.1, "slope from which a target slides", "judgement: friction of polished steel")
+    nest_slopes: tuple[float, ...] = constant(
+        (0.1, 0.0, 0.05, 0.15, 0.2, 0.3), "from which a target slides", "judgement: friction of polished steel first"
+    )
     rocker_step_deg: float = constant(
         3.0,
         "between directions of the rocker on the forearm that are tried where robot.yaml does not state them",

@@ -10,7 +10,6 @@ import functools
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM
 from armscope.physics.linkage_drivers import BARS
 from armscope.physics.load_drivers import LOADS
 from armscope.physics.loaded_arm import LoadedArm
@@ -99,17 +98,18 @@ def _pull(scene: LoadedArm, axis: int) -> Array:
     return _weight(scene)[:, axis]
 
 
-def _side_along(scene: LoadedArm, x: float, y: float, z: float) -> Array:
-    """How far something that slides along a direction of the tool lies to its lower end, -1 to 1."""
+def _side_along(scene: LoadedArm, x: float, y: float, z: float, slope: float) -> Array:
+    """The end to which something falls that slides along a direction of the tool, -1 or 1; 0 below a slope."""
     pull = _weight(scene) @ np.array([x, y, z])
-    return np.asarray(pull / np.sqrt(pull**2 + FORM.level_nest**2))
+    return np.asarray(np.where(np.abs(pull) > slope, np.sign(pull), 0.0))
 
 
-def _side_across(scene: LoadedArm, axis: int, x: float, y: float, z: float) -> Array:
+def _side_across(scene: LoadedArm, axis: int, x: float, y: float, z: float, slope: float) -> Array:
     """The same of what slides in the plane across a direction: how far it lies along an axis of the tool."""
     pull, across = _weight(scene), np.array([x, y, z])
     pull = pull - np.outer(pull @ across, across)
-    return np.asarray(pull[:, axis] / np.sqrt(np.sum(pull**2, axis=1) + FORM.level_nest**2))
+    steep = np.linalg.norm(pull, axis=1)
+    return np.asarray(np.where(steep > slope, pull[:, axis] / np.maximum(steep, 1e-12), 0.0))
 
 
 def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:

@@ -38,31 +38,29 @@ def tool_turns_over(arm: Arm, recordings: Recordings) -> bool:
     return bool(np.std(pulls, axis=1).max() > FORM.varying_load)
 
 
-def nest(way: Way, direction: Array, multiplicity: int = 1) -> Placed:
+def nest(way: Way, direction: Array, slope: float = FORM.nest_slopes[0], multiplicity: int = 1) -> Placed:
     """A target that lies on the lower side of its nest.
 
     Args:
         way: how it has play.
         direction: (3,) in the tool's axes, of unit length.
-        multiplicity: how many directions compete.
+        slope: share of its weight that must pull that way, or it stays in the middle.
+        multiplicity: how many directions and slopes compete.
 
     Returns:
         The effect in place.
     """
-    x, y, z = (round(float(each), 4) + 0.0 for each in direction)
+    at = tuple(round(float(each), 4) + 0.0 for each in direction)
     if way == "along":
-        falls = [
-            Product(Direction("tool", axis), Driver("side along", (x, y, z)), n)
-            for axis, n in zip(_AXES, (x, y, z), strict=True)
-        ]
+        falls = [(axis, Driver("side along", (*at, slope)), n) for axis, n in zip(_AXES, at, strict=True) if n]
     else:
-        falls = [Product(Direction("tool", axis), Driver("side across", (n, x, y, z))) for n, axis in enumerate(_AXES)]
-    seen = [each for each, n in zip(falls, (x, y, z), strict=True) if (n if way == "along" else abs(n) < 1)]
-    play = Term(f"play_{way}", "mm", 1e-3, tuple(seen), PLAUSIBLE.loose_target_m)
-    scanned = (("x", "", x), ("y", "", y), ("z", "", z))
-    return Placed(
-        LOOSE_TARGET, "tool", (play,), (1.0,), ATTITUDE, scanned, multiplicity, variant=f"{way} {x:.3f} {y:.3f} {z:.3f}"
-    )
+        across = [(axis, Driver("side across", (n, *at, slope))) for n, axis in enumerate(_AXES) if abs(at[n]) < 1]
+        falls = [(axis, driver, 1.0) for axis, driver in across]
+    products = tuple(Product(Direction("tool", axis), driver, share) for axis, driver, share in falls)
+    play = Term(f"play_{way}", "mm", 1e-3, products, PLAUSIBLE.loose_target_m)
+    scanned = (*((axis, "", n) for axis, n in zip("xyz", at, strict=True)), ("slope", "", slope))
+    variant = " ".join((way, *(f"{n:.3f}" for n in at), f"from {slope:g}"))
+    return Placed(LOOSE_TARGET, "tool", (play,), (1.0,), ATTITUDE, scanned, multiplicity, variant)
 
 
 @functools.cache
@@ -74,21 +72,27 @@ def nests_anyhow() -> dict[Way, tuple[Placed, ...]]:
     level = np.sqrt(1 - z**2)
     directions = np.stack([level * np.cos(turn), level * np.sin(turn), z], axis=1)
     ways: tuple[Way, ...] = ("along", "across")
-    return {way: tuple(nest(way, direction, count) for direction in directions) for way in ways}
+    tried = count * len(FORM.nest_slopes)
+    return {way: tuple(nest(way, each, multiplicity=tried) for each in directions) for way in ways}
 
 
-def finer_nests(placed: Placed) -> list[Placed]:
-    """Nests in directions about that of another one, less than a step from it; none of another effect."""
-    if placed.effect is not LOOSE_TARGET:
-        return []
-    middle = np.array([value for _, _, value in placed.scanned])
-    across = np.linalg.svd(middle[None])[2][1:]
-    turns = np.arange(8) * np.pi / 4
-    around = np.cos(turns)[:, None] * across[0] + np.sin(turns)[:, None] * across[1]
-    tilts = np.radians(FORM.nest_step_deg) * np.array([0.5, 0.2])
-    found = [middle * np.cos(tilt) + each * np.sin(tilt) for tilt in tilts for each in around]
+def nests_about(placed: Placed, tilt_deg: float) -> tuple[Placed, ...]:
+    """A nest, those whose direction is tilted against its own to eight sides, and those with other slopes.
+
+    Args:
+        placed: the nest.
+        tilt_deg: by how much.
+
+    Returns:
+        All of them, itself first.
+    """
+    *at, slope = (value for _, _, value in placed.scanned)
     way: Way = "along" if placed.terms[0].name == "play_along" else "across"
-    return [nest(way, each, max(placed.multiplicity, len(nests_anyhow()[way]))) for each in found]
+    middle, turns, tilt = np.array(at), np.arange(8) * np.pi / 4, np.radians(tilt_deg)
+    sides = np.column_stack([np.cos(turns), np.sin(turns)]) @ np.linalg.svd(middle[None])[2][1:]
+    tilted = [(each, slope) for each in middle * np.cos(tilt) + sides * np.sin(tilt)]
+    steeper = [(middle, each) for each in FORM.nest_slopes if each != slope]
+    return (placed, *(nest(way, direction, of, placed.multiplicity) for direction, of in (*tilted, *steeper)))
 
 
 def _place_nests(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -147,7 +151,8 @@ LOOSE_TARGET = Effect(
     ),
     clauses=(_falls, "the target is loose on the tool"),
     labels={"play_along": "to the lower side", "play_across": "to the lower side"}
-    | {axis: f"{axis} of that direction, in the tool's axes" for axis in "xyz"},
+    | {axis: f"{axis} of that direction, in the tool's axes" for axis in "xyz"}
+    | {"slope": "from a slope of"},
     atlas="gravity load",
     nonnegative=True,
 )

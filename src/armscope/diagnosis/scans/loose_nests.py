@@ -11,38 +11,47 @@ from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, few_rows, scanned_rows, scores_given
 from armscope.fitting.column_blocks import TermBlocks, column_blocks
 from armscope.inference.evidence import Hypothesis
+from armscope.physics.constants import FORM
 from armscope.physics.effect import Placed
-from armscope.physics.loose_target import LOOSE_TARGET, finer_nests, nests_anyhow
+from armscope.physics.loose_target import LOOSE_TARGET, nests_about, nests_anyhow
 
 
 def loose_nests(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
-    """The most promising nests given each of some hypotheses, and finer directions about one that is chosen.
+    """The most promising nest of either way, given each of some hypotheses.
 
     Args:
         context: the rows where the problem was linearised.
-        given: hypotheses beside which a nest would stand.
+        given: hypotheses beside which a nest would stand; none has one.
 
     Returns:
         Nests that promise enough to go on to compete; none where nests along the tool's axes do not.
     """
     if not any(placed.effect is LOOSE_TARGET for placed in context.space.placed):
         return
+    for hypothesis in given:
+        for nests in nests_anyhow().values():
+            found, promised = _best(context, hypothesis, nests, _blocks(nests))
+            for tilt in (FORM.nest_step_deg / part for part in (2, 4, 10)):
+                about = nests_about(found, tilt)
+                found, promised = _best(context, hypothesis, about, TermBlocks.of([each.terms for each in about]))
+            if promised > SCANS.worth_a_look:
+                yield found
+
+
+def _best(
+    context: ScanContext, hypothesis: Hypothesis, nests: Sequence[Placed], blocks: TermBlocks
+) -> tuple[Placed, float]:
+    """The most promising of some nests, and how many nats it promises."""
     count = len(context.recordings)
     rows = scanned_rows(count)
-    columns, weights = columns_of(given), context.weights.take(rows, len(rows) / count)
     table = context.few or few_rows(context.recordings)
-    sums = column_blocks(_blocks(), context.space.layout, columns, context.model, table, weights)
-    for nests, of_way in zip(nests_anyhow().values(), sums, strict=True):
-        for hypothesis in given:
-            scores = scores_given(context.problem, hypothesis, of_way, columns)
-            best = int(np.argmax(scores))
-            if scores[best] > SCANS.worth_a_look:
-                yield nests[best]
-    for number in sorted({n for hypothesis in given for n in hypothesis.candidates}):
-        yield from finer_nests(context.space.placed[number])
+    weights, columns = context.weights.take(rows, len(rows) / count), columns_of([hypothesis])
+    (sums,) = column_blocks([blocks], context.space.layout, columns, context.model, table, weights)
+    scores = scores_given(context.problem, hypothesis, sums, columns)
+    return nests[int(np.argmax(scores))], float(scores.max())
 
 
-@functools.cache
-def _blocks() -> list[TermBlocks]:
-    """By way, the same at every scan, as is their order."""
-    return [TermBlocks.of([placed.terms for placed in nests]) for nests in nests_anyhow().values()]
+@functools.lru_cache(maxsize=2)
+def _blocks(nests: tuple[Placed, ...]) -> TermBlocks:
+    """The same at every scan, as is their order."""
+    return TermBlocks.of([placed.terms for placed in nests])

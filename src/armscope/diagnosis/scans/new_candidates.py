@@ -15,6 +15,7 @@ from armscope.physics.backgrounds import DRIFT, FAMILIES
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed
 from armscope.physics.geometric import finer_bars
+from armscope.physics.loose_target import LOOSE_TARGET
 from armscope.physics.scene import Scene
 
 
@@ -37,8 +38,10 @@ def scanned_candidates(context: ScanContext, search: Search, best: Hypothesis, m
     steady = [search.with_background(each, FAMILIES.index(DRIFT), 0) for each in given]
     scene = Scene(context.model.arm, context.recordings)
     finer = [bars for c in sorted(best.candidates) for bars in finer_bars(scene, context.space.placed[c])]
+    nests = [c for c in best.candidates if context.space.placed[c].effect is LOOSE_TARGET]
+    loose = [search.without(each, nests) for each in given]
     scans = (
-        mesh_lines(context, given, most), loose_nests(context, given), jumps(context, steady),
+        mesh_lines(context, given, most), loose_nests(context, loose), jumps(context, steady),
         _paused(context, search, best), finer,
     )  # fmt: skip
     for found in scans:
