@@ -98,18 +98,31 @@ def _pull(scene: LoadedArm, axis: int) -> Array:
     return _weight(scene)[:, axis]
 
 
-def _side_along(scene: LoadedArm, x: float, y: float, z: float, slope: float) -> Array:
-    """The end to which something falls that slides along a direction of the tool, -1 or 1; 0 below a slope."""
-    pull = _weight(scene) @ np.array([x, y, z])
-    return np.asarray(np.where(np.abs(pull) > slope, np.sign(pull), 0.0))
+def _along_base(scene: LoadedArm, axis: int, in_tool: Array) -> Array:
+    """What is a shift (N, 3) in the nominal tool's axes, along an axis of the base."""
+    return np.asarray(np.sum(scene.nominal.tool_rotation[:, axis] * in_tool, axis=1))
+
+
+def _side_along(scene: LoadedArm, axis: int, x: float, y: float, z: float, slope: float) -> Array:
+    """Where something lies that slides along a direction of the tool, by one to its lower end, along a base's axis."""
+    direction = np.array([x, y, z])
+    pull = _weight(scene) @ direction
+    return _along_base(scene, axis, np.outer(np.where(np.abs(pull) > slope, np.sign(pull), 0.0), direction))
 
 
 def _side_across(scene: LoadedArm, axis: int, x: float, y: float, z: float, slope: float) -> Array:
-    """The same of what slides in the plane across a direction: how far it lies along an axis of the tool."""
+    """The same of what slides in the plane across a direction."""
     pull, across = _weight(scene), np.array([x, y, z])
     pull = pull - np.outer(pull @ across, across)
-    steep = np.linalg.norm(pull, axis=1)
-    return np.asarray(np.where(steep > slope, pull[:, axis] / np.maximum(steep, 1e-12), 0.0))
+    steep = np.linalg.norm(pull, axis=1, keepdims=True)
+    return _along_base(scene, axis, np.where(steep > slope, pull / np.maximum(steep, 1e-12), 0.0))
+
+
+def _sag(scene: LoadedArm, axis: int, row: int, column: int) -> Array:
+    """What a symmetric matrix with ones at a place (from 1) makes of a weight in the tool, along a base's axis."""
+    matrix = np.zeros((3, 3))
+    matrix[row - 1, column - 1] = matrix[column - 1, row - 1] = 1.0
+    return _along_base(scene, axis, _weight(scene) @ matrix)
 
 
 def _lost_motion(scene: LoadedArm, j: int, centre: float, width: float) -> Array:
@@ -149,6 +162,7 @@ KINDS: dict[str, DriverKind] = {
     "attitude": DriverKind(_attitude),
     "attitude twice": DriverKind(_attitude_twice),
     "pull on the target": DriverKind(_pull),
+    "sag": DriverKind(_sag),
     "side along": DriverKind(_side_along),
     "side across": DriverKind(_side_across),
     "lost motion": DriverKind(_lost_motion, needs="approach"),

@@ -1,7 +1,9 @@
 """What the measured target does on the tool under its own weight: it falls about in its nest, or its holder bends.
 
 No joint moves, but readings follow how the tool stands to gravity. A shift that is the same along all axes of the tool
-is a constant one, which the base takes up: so a holder's sag is told against the tool's z.
+is a constant one, which the base takes up: so a holder's sag is told against the tool's z. Shifts are taken as the
+nominal tool stands: by the arm's own errors they turn by next to nothing, and else a zero of the last joint, which
+nothing but a shift on the tool shows, would stand for a direction that is not quite right.
 """
 
 from __future__ import annotations
@@ -26,7 +28,6 @@ ATTITUDE = "how the tool stands to gravity"
 """What both follow, in words."""
 ANYHOW = "turned"
 """The variant of a holder that is softest along no axis of the tool."""
-_AXES = ("tx", "ty", "tz")
 
 
 def tool_turns_over(arm: Arm, recordings: Recordings) -> bool:
@@ -51,12 +52,7 @@ def nest(way: Way, direction: Array, slope: float = FORM.nest_slopes[0], multipl
         The effect in place.
     """
     at = tuple(round(float(each), 4) + 0.0 for each in direction)
-    if way == "along":
-        falls = [(axis, Driver("side along", (*at, slope)), n) for axis, n in zip(_AXES, at, strict=True) if n]
-    else:
-        across = [(axis, Driver("side across", (n, *at, slope))) for n, axis in enumerate(_AXES) if abs(at[n]) < 1]
-        falls = [(axis, driver, 1.0) for axis, driver in across]
-    products = tuple(Product(Direction("tool", axis), driver, share) for axis, driver, share in falls)
+    products = _in_base(f"side {way}", *at, slope)
     play = Term(f"play_{way}", "mm", 1e-3, products, PLAUSIBLE.loose_target_m)
     scanned = (*((axis, "", n) for axis, n in zip("xyz", at, strict=True)), ("slope", "", slope))
     variant = " ".join((way, *(f"{n:.3f}" for n in at), f"from {slope:g}"))
@@ -105,15 +101,19 @@ def _place_nests(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 def _sag(name: str, one: int, other: int) -> Term:
     """Along an axis by the share of weight along another one, and the other way round: what is elastic is symmetric."""
-    ways = {(one, other), (other, one)}
-    products = (Product(Direction("tool", _AXES[to]), Driver("pull on the target", (by,))) for to, by in sorted(ways))
-    return term(f"sag_{name}", "mm", *products, si=1e-3, plausible=PLAUSIBLE.loose_target_m)
+    return term(f"sag_{name}", "mm", *_in_base("sag", one, other), si=1e-3, plausible=PLAUSIBLE.loose_target_m)
+
+
+def _in_base(kind: str, *arguments: float) -> tuple[Product, ...]:
+    """A shift along all axes of the base."""
+    axes = enumerate(("tx", "ty", "tz"))
+    return tuple(Product(Direction("base", axis), Driver(kind, (n, *arguments))) for n, axis in axes)
 
 
 def _place_holder(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if tool_turns_over(arm, recordings):
-        along = (_sag("x", 0, 0), _sag("y", 1, 1))
-        turned = (_sag("xy", 0, 1), _sag("xz", 0, 2), _sag("yz", 1, 2))
+        along = (_sag("x", 1, 1), _sag("y", 2, 2))
+        turned = (_sag("xy", 1, 2), _sag("xz", 1, 3), _sag("yz", 2, 3))
         yield Placed(HOLDER_SAG, "tool", along, (1.0,) * 2, ATTITUDE, partly_unseen=True)
         yield Placed(HOLDER_SAG, "tool", (*along, *turned), (1.0,) * 5, ATTITUDE, variant=ANYHOW, partly_unseen=True)
 

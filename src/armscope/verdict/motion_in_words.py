@@ -37,7 +37,7 @@ def motion_in_words(scene: Scene, parts: tuple[Part, ...], zero: float | None = 
     """
     amounts: dict[str, list[tuple[str, Array]]] = {"turns": [], "moves": []}
     places = {part.placed.location for part in parts}
-    link = places.pop() if len(places) == 1 and min(places).startswith("link ") else ""
+    where = min(places) if len(places) == 1 and min(places).startswith(("link ", "tool")) else ""
     for direction, amount in scene.amounts(parts).items():
         place = Location.of(direction.location)
         if place.kind in ("instrument", "payload"):
@@ -45,7 +45,9 @@ def motion_in_words(scene: Scene, parts: tuple[Part, ...], zero: float | None = 
         turning = direction.axis == "turn" or direction.axis.startswith("r")
         about = "" if direction.axis == "turn" else f" {'about' if turning else 'along'} {direction.axis[1:]}"
         # a modified row's a and alpha act in the frame of the row before, its d in the joint's: neither is its number
-        name = f"joint {place.number}" if place.kind == "motor" else link or direction.location
+        name = f"joint {place.number}" if place.kind == "motor" else where or direction.location
+        if place.kind == "base" and where == "tool":
+            about += " of the base"
         amounts["turns" if turning else "moves"].append((f"{name}{about}", np.asarray(amount)))
     told = []
     for verb, found in amounts.items():
