@@ -8,6 +8,7 @@ import pytest
 
 from armscope.check.constants import TRIALS
 from armscope.check.report import check
+from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 from tests.check.test_check import problems
@@ -46,6 +47,7 @@ def _again(mistake, words):
         # asked of a run and beside a tool that explains nothing as well
         _again(lambda t: replace(t, positions=t.positions * 1e3), "millimetres that were declared as metres"),
         (lambda t: replace(t, positions=t.positions * [1, -1, 1]), "left-handed"),
+        (lambda t: _flip(_flip(t, 1), 4), "joints 2 and 5 turn the other way than the arm's model says"),
         _again(lambda t: replace(t, positions=t.positions[:, [1, 0, 2]]), "left-handed"),
         (lambda t: replace(t, motor_angles=t.motor_angles[:, ::-1]), "reverse order"),
         pytest.param(
@@ -162,3 +164,20 @@ def test_a_mistake_in_the_rows_of_robot_yaml_is_named_as_one(change, words, arm,
     stated = arm.description.model_copy(update={"dh": change(arm.description.dh)})
     (found,) = problems(sound, build_arm(stated))
     assert words in found
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_symmetric_arm_is_mirrored_by_signs_or_by_its_frame_and_both_are_said(mirrored):
+    """KUKA counts joints 1, 4 and 6 the other way. Who mirrored the frame in the place of them sent the arm astray."""
+    arm = load_arm("kr6-r900")
+    rng = np.random.default_rng(4)
+    angles = rng.uniform(-1, 1, (40, 6)) * [2.5, 0.7, 1.0, 2.8, 1.8, 3.0] + [0, -0.8, 1.0, 0, 0, 0]
+    table = measured(arm, angles, far_away(rng), {"ball": (0.03, 0.02, 0.1)}, noise=1e-5, rng=rng)
+    if mirrored:
+        table = replace(table, positions=table.positions * [1, -1, 1])
+    else:
+        table = replace(table, motor_angles=angles * [-1, 1, 1, -1, 1, -1])
+    (said,) = problems(table, arm)
+    assert said.startswith("joints 1, 4 and 6 turn the other way than the arm's model says. Give q1, q4 and q6 the")
+    assert "Or the measurement frame is left-handed" in said
+    assert "Jog joint 1" in said

@@ -12,6 +12,7 @@ import numpy as np
 
 from armscope.check.constants import TRIALS
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
@@ -37,12 +38,6 @@ class Trial:
 def trials(arm: Arm) -> Iterator[Trial]:
     """All mistakes that are tried, the usual ones first."""
     yield from _units()
-    yield Trial(
-        "left-handed frame",
-        "the measurement frame is left-handed: the points are a mirror image of the arm's",
-        "Flip the sign of one axis, or exchange two, where the points come from (in mapping.yaml: two of `position`).",
-        _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),
-    )
     for shift in sorted({*range(-TRIALS.row_shift, TRIALS.row_shift + 1)} - {0}, key=abs):
         yield Trial(
             "rows out of step",
@@ -51,6 +46,13 @@ def trials(arm: Arm) -> Iterator[Trial]:
             partial(_shifted, shift=shift),
         )
     yield from _joints(arm.n_motors)
+    yield from _several_signs(arm.n_motors)
+    yield Trial(
+        "left-handed frame",
+        "the measurement frame is left-handed: the points are a mirror image of the arm's",
+        "Flip the sign of one axis, or exchange two, where the points come from (in mapping.yaml: two of `position`).",
+        _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),
+    )
     yield from _of_the_arm(arm)
 
 
@@ -153,6 +155,24 @@ def _joints(n_motors: int) -> Iterator[Trial]:
             "Exchange their columns.",
             _changed("motor_angles", partial(np.take, indices=order, axis=1)),
         )
+
+
+def _several_signs(n_motors: int) -> Iterator[Trial]:
+    """Makers count some joints the other way, as KUKA does 1, 4 and 6: of a symmetric arm, that is its mirror image."""
+    if n_motors > TRIALS.signed_joints:
+        return
+    for many in range(2, n_motors):
+        for several in itertools.combinations(range(n_motors), many):
+            signs = np.where(np.isin(np.arange(n_motors), several), -1.0, 1.0)
+            joints = enumerated([str(motor + 1) for motor in several])
+            columns = enumerated([f"q{motor + 1}" for motor in several])
+            yield Trial(
+                "joint sign",
+                f"joints {joints} turn the other way than the arm's model says",
+                f"Give {columns} the other sign, or turn these axes in robot.yaml (actuation: -1). Jog joint "
+                f"{several[0] + 1}: where its angle grows, does it turn as the model does?",
+                _changed("motor_angles", partial(np.multiply, signs)),
+            )
 
 
 def _parallelogram(n_motors: int) -> Iterator[Trial]:

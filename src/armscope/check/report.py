@@ -182,7 +182,9 @@ def _context_line(context: Context) -> str:
 
 
 def _arm_lines(consistency: Consistency | None, rows: int) -> list[str]:
-    if consistency is None or np.isnan(consistency.rms):
+    if consistency is None:
+        return ["no robot was given (--robot): nothing was tried against an arm"]
+    if np.isnan(consistency.rms):
         return []
     return [
         f"nominal arm, base and tool fitted: {consistency.rms * 1e3:.4g} mm RMS distance "

@@ -14,10 +14,10 @@ from armscope.check.plain_errors import PlainErrors
 from armscope.check.suspicion import SETTLED, Suspicion
 from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
+from armscope.core.words import enumerated
 from armscope.recordings import Recordings
 from armscope.recordings.motion import last_moves
 from armscope.robot import Arm
-from armscope.verdict.wording import enumerated
 
 
 def not_at_rest(arm: Arm, recordings: Recordings, state: State) -> list[Suspicion]:
