@@ -15,6 +15,7 @@ from armscope.core.types import Array
 from armscope.robot import Arm
 from armscope.robot.urdf_writing import (
     WrittenJoint,
+    add_frame,
     chain_urdf,
     keep_meshes,
     origin_of,
@@ -24,7 +25,7 @@ from armscope.robot.urdf_writing import (
     urdf_text,
 )
 
-TIP = "calibrated_flange"
+TIP, TOOL = "calibrated_flange", "calibrated_tool"
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:
@@ -65,7 +66,7 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
         described = _described(calibration.arm)
         name = common.pop("name")
         write_yaml(folder / "robot.yaml", {"name": name, "dh": table, **common, **described})
-        write_text(folder / "robot.urdf", _fresh_urdf(calibration.arm))
+        write_text(folder / "robot.urdf", _fresh_urdf(calibration.arm, tool * 1e-3))
         write_yaml(folder / "robot_urdf.yaml", {"name": name, **by_urdf, "tip": TIP, **common})
         written = ["robot.yaml", "robot.urdf", "robot_urdf.yaml"]
     write_yaml(folder / "frames.yaml", frames_content(calibration))
@@ -125,8 +126,8 @@ def _row(row: dict[str, float]) -> dict[str, float]:
     return {name: value for name, value in row.items() if name != "beta_deg" or value != 0}
 
 
-def _fresh_urdf(arm: Arm) -> str:
-    """The arm's chain as a URDF, with its masses as points."""
+def _fresh_urdf(arm: Arm, tool: Array) -> str:
+    """The arm's chain as a URDF, with its masses as points, and a link at the tool (3,), m."""
     ends_at_motor = arm.description.actuation is None
     joints = []
     for joint, placement in enumerate(arm.before):
@@ -137,6 +138,9 @@ def _fresh_urdf(arm: Arm) -> str:
     for mass, centre, link in zip(arm.masses, arm.centres, robot.findall("link")[1:-1], strict=True):
         if mass > 0:
             set_inertial(link, mass, centre, np.zeros((3, 3)))
+    at_tool = np.eye(4)
+    at_tool[:3, 3] = tool
+    add_frame(robot, TIP, TOOL, at_tool)
     robot.insert(0, ET.Comment("effort and velocity limits are placeholders; masses are points, good for statics only"))
     return urdf_text(robot)
 

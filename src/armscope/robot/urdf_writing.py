@@ -60,9 +60,21 @@ def chain_urdf(name: str, joints: Sequence[WrittenJoint], flange: str, tip: Arra
             low, high = (repr(float(limit)) for limit in joint.limits)
             ET.SubElement(element, "limit", lower=low, upper=high, effort="1000", velocity="10")
         parent = link
-    ET.SubElement(robot, "link", name=flange)
-    _add_joint(robot, "flange_fixed", "fixed", (parent, flange), tip)
+    add_frame(robot, parent, flange, tip)
     return robot
+
+
+def add_frame(robot: ET.Element, parent: str, name: str, placement: Array) -> None:
+    """A frame that is fixed to a link, as a link without mass.
+
+    Args:
+        robot: the root, which is changed.
+        parent: the link that it is fixed to.
+        name: of the frame.
+        placement: (4, 4) where it is in the link's frame.
+    """
+    ET.SubElement(robot, "link", name=name)
+    _add_joint(robot, f"{name}_fixed", "fixed", (parent, name), placement)
 
 
 def _add_joint(robot: ET.Element, name: str, kind: str, links: tuple[str, str], placement: Array) -> ET.Element:
