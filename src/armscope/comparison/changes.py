@@ -23,15 +23,15 @@ from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.noisier import noisier
 from armscope.comparison.other_load import follows_loads, other_load
-from armscope.comparison.result import Change, Comparison, Kind, Left, Seen, Valued
+from armscope.comparison.result import Change, Comparison, Kind, Left, Valued
 from armscope.comparison.search import likeliest_changes
+from armscope.comparison.seen import seen
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.standing import stands
 from armscope.comparison.steps import as_steps
 from armscope.core.types import Array
 from armscope.physics.effect import Term
-from armscope.physics.geometric import JOINT_OFFSET
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
@@ -53,13 +53,12 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         InputError: fewer than two recordings, or one that does not fit the arm.
     """
     table, group = stacked(arm, recordings)
-    model = SharedModel(arm, table, group)
+    model = SharedModel(arm, table, group, of_arms)
     families = of_same_poses(list(recordings.values()))
     everything = model.possible_changes(_masks(families, of_arms))
-    tried = len(everything)
-    joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
-    names = tuple(recordings)
+    tried, names = len(everything), tuple(recordings)
     taken, changes = _named(model, everything, names, of_arms)
+    joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     return Comparison(
         arm=arm.name,
         names=names,
@@ -70,7 +69,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         tried=tried,
         same_poses=tuple(tuple(names[k] for k in family) for family in families),
         of_arms=of_arms,
-        seen=_seen(model, everything, taken),
+        seen=seen(model, everything, taken),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
         noisier=noisier(names, families, model.left_over(taken), model.dispersion),
@@ -106,16 +105,31 @@ def _named(
 
 
 def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: int) -> list[Possible]:
-    """The likeliest changes, short recordings weighed with what was found: without it one of them counts as noisy."""
+    """The likeliest changes beside noise, and errors of each arm's own, that are as large as without these changes."""
     taken = likeliest_changes(model, possible, tried)
+    if model.of_arms and not taken:
+        model.settle(_hidden(model, possible))
+        taken = likeliest_changes(model, possible, tried)
     for _ in range(SHARED.weighings):
-        if not taken or model.weighed_alone:
+        if not taken or model.settled:
             break
-        model.weigh_recordings(taken)
+        model.settle(taken)
         before, taken = set(taken), likeliest_changes(model, possible, tried)
         if set(taken) == before:
             break
+    if model.of_arms and not taken:
+        model.settle(())
     return taken
+
+
+def _hidden(model: SharedModel, possible: Sequence[Possible]) -> list[Possible]:
+    """The likeliest of errors beside those that most arms have: it makes such errors seem usual, and would hide itself.
+
+    What is sure without it in what is usual, is looked for then.
+    """
+    model.settle((), of_most=True)
+    scores = model.scores(possible, ())
+    return [possible[int(np.argmax([score.nats for score in scores]))]]
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
@@ -130,17 +144,6 @@ def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tup
         alone = [(each,) for each in (family if of_arms else family[1:-1])] if len(family) > 2 else []
         masks += [(inside, tuple(each for each in family if each not in inside)) for inside in (*later, *alone)]
     return masks
-
-
-def _seen(model: SharedModel, possible: Sequence[Possible], found: Sequence[Possible]) -> tuple[Seen, ...]:
-    """How far the zero of each joint must move to be seen, whichever of the recordings it moves in."""
-    least: dict[str, float] = {}
-    zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
-    level = COMPARING.level / max(len(possible), 1)
-    sizes = model.smallest_seen(zeros, level, COMPARING.power, found) if zeros else ()
-    for each, size in zip(zeros, sizes, strict=True):
-        least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
-    return tuple(Seen(location, size) for location, size in least.items())
 
 
 def _worse_as_a_load(model: SharedModel, everything: Sequence[Possible], taken: Sequence[Possible]) -> float | None:

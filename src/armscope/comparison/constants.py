@@ -106,6 +106,15 @@ class SharedModelRules(Constants):
     noise_rounds: int = constant(
         4, "in which it is found", "judgement: it then changes by less than it is uncertain", unit="rounds"
     )
+    size_rounds: int = constant(
+        6,
+        "in which it is learned how large errors of each arm's own are",
+        "judgement: sizes then change by less than they are uncertain",
+        unit="rounds",
+    )
+    least_size: float = constant(
+        0.1, "by which errors of each arm's own become smaller in a round, at most", "derived: so that none is nothing"
+    )
     least_variance: float = constant(
         1e-12, "of the noise", "derived: far below any instrument's; exact rows would have none", unit="mm2"
     )

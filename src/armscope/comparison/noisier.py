@@ -16,9 +16,10 @@ from scipy.special import chdtri, ndtr
 from armscope.comparison.constants import COMPARING, GROWN
 from armscope.core.numerals import size_of
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.fitting.joint_scatter import find_scatter
 from armscope.verdict.constants import WORDS
-from armscope.verdict.wording import enumerated, millimetres
+from armscope.verdict.wording import millimetres
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+from dataclasses import dataclass
+
 import numpy as np
 
 from armscope.core.types import Array, Indices
@@ -9,55 +12,84 @@ from armscope.inference.constants import NUMERICS
 from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 
 
-def held_values(rows: Array, columns: Array, penalty: Array) -> Array:
-    """Of each column, by least squares.
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Columns by which rows are fitted, with a penalty on each.
 
-    Args:
-        rows: (n,) what is fitted.
-        columns: (n, p) by these.
+    Attributes:
+        columns: (n, p).
         penalty: (p,) on the square of each value.
-
-    Returns:
-        (p,) the values.
+        drawn: so many of the first ones have values that are drawn from many alike, of which the penalty knows the
+            size: they are noise of another shape, and take up none of the numbers that are free.
     """
-    stacked = np.vstack([columns, np.diag(np.sqrt(penalty))])
-    return np.asarray(np.linalg.lstsq(stacked, np.concatenate([rows, np.zeros(len(penalty))]))[0])
+
+    columns: Array
+    penalty: Array
+    drawn: int = 0
+
+    @functools.cached_property
+    def gram(self) -> Array:
+        """(p, p)."""
+        return np.asarray(self.columns.T @ self.columns)
+
+    @functools.cached_property
+    def inverse(self) -> Array:
+        """(p, p) whose transpose times it is the inverse of the normal equations."""
+        penalty = np.maximum(self.penalty, NUMERICS.rounding * self.gram.diagonal())  # few rows are fitted exactly
+        return lower_inverse(lower_cholesky(self.gram, penalty))
+
+    @functools.cached_property
+    def half(self) -> Array:
+        """(p, n) what is fitted of rows is its transpose times it times them."""
+        return self.inverse @ self.columns.T
+
+    def held(self, penalty: Array) -> Beside:
+        """The same columns with other penalties (p,)."""
+        other = Beside(self.columns, penalty, self.drawn)
+        other.__dict__["gram"] = self.gram  # the dearest part, and the same
+        return other
+
+    @functools.cached_property
+    def fixed(self) -> Beside:
+        """Without what is drawn."""
+        return Beside(self.columns[:, self.drawn :], self.penalty[self.drawn :]) if self.drawn else self
+
+    def information(self, columns: Array) -> Array:
+        """(q, q) what rows tell of columns (n, q) that are free beside these, in units of one over their variance."""
+        across = self.half @ columns
+        return np.asarray(columns.T @ columns - across.T @ across)
 
 
-def variance_left(rows: Array, columns: Array, penalty: Array, gram: Array | None = None) -> tuple[float, float]:
-    """How much is left of all rows together.
+def held_values(rows: Array, base: Beside) -> Array:
+    """(p,) the value of each column, by least squares on rows (n,)."""
+    stacked = np.vstack([base.columns, np.diag(np.sqrt(base.penalty))])
+    return np.asarray(np.linalg.lstsq(stacked, np.concatenate([rows, np.zeros(len(base.penalty))]))[0])
 
-    Args:
-        rows: (n,) what is fitted.
-        columns: (n, p) by these.
-        penalty: (p,) on the square of each value.
-        gram: (p, p) of the columns, where it is known.
+
+def variance_left(rows: Array, base: Beside) -> tuple[float, float]:
+    """How much is left of all rows (n,) together.
 
     Returns:
         Variance per number, and how many numbers are free.
     """
-    gram = columns.T @ columns if gram is None else gram
-    penalty = np.maximum(penalty, NUMERICS.rounding * gram.diagonal())  # few rows are fitted exactly
-    half = lower_inverse(lower_cholesky(gram, penalty))
-    values = half.T @ (half @ (columns.T @ rows))
-    left = rows - columns @ values
-    used = len(penalty) - float(np.sum(half**2 @ penalty))
-    free = max(len(left) - used, 1.0)
-    return float((left @ left + values**2 @ penalty) / free), free
+    values = base.inverse.T @ (base.inverse @ (base.columns.T @ rows))
+    left = rows - base.columns @ values
+    taken_up = 1 - np.sum(base.inverse**2, axis=0) * base.penalty
+    free = max(len(left) - float(np.sum(taken_up[base.drawn :])), 1.0)
+    return float((left @ left + values**2 @ base.penalty) / free), free
 
 
-def left_of_groups(rows: Array, columns: Array, penalty: Array, group: Indices) -> tuple[Array, Array]:
+def left_of_groups(rows: Array, base: Beside, group: Indices) -> tuple[Array, Array]:
     """What is left of rows, and how many numbers of each group of them are free.
 
     Args:
         rows: (n,) what is fitted.
-        columns: (n, p) by these.
-        penalty: (p,) on the square of each value.
+        base: by this.
         group: (n,) the number of each row's group.
 
     Returns:
         (n,) what is left, and a number for each group, at least 1.
     """
-    hat = np.linalg.solve(columns.T @ columns + np.diag(penalty), columns.T)
-    free = np.bincount(group, 1 - np.einsum("ij,ji->i", columns, hat))
-    return rows - columns @ (hat @ rows), np.maximum(free, 1.0)
+    hat = np.linalg.solve(base.gram + np.diag(base.penalty), base.columns.T)
+    free = np.bincount(group, 1 - np.einsum("ij,ji->i", base.columns, hat))
+    return rows - base.columns @ (hat @ rows), np.maximum(free, 1.0)

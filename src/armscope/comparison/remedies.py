@@ -10,12 +10,13 @@ import numpy as np
 
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison, Valued
+from armscope.core.words import enumerated
 from armscope.physics.effect import Effect
 from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.tasks import with_numbers
-from armscope.verdict.wording import enumerated, millimetres, read_parameter
+from armscope.verdict.wording import millimetres, read_parameter
 
 
 @dataclass(frozen=True)

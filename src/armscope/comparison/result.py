@@ -9,9 +9,10 @@ from typing import Any, Literal
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.core.numerals import shown_unit, size_of
+from armscope.core.words import enumerated
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INTERVAL
-from armscope.verdict.wording import capitalised, decimals_for, enumerated, places_in_words
+from armscope.verdict.wording import capitalised, decimals_for, places_in_words
 
 UNLIKE = {
     "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",

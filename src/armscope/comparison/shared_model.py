@@ -7,20 +7,20 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
 from armscope.comparison.noisier import LeftOver
-from armscope.comparison.penalised import held_values, left_of_groups, variance_left
+from armscope.comparison.own_errors import learned, no_own_errors, own_errors
+from armscope.comparison.penalised import Beside, held_values, left_of_groups, variance_left
+from armscope.comparison.scoring import Drawn, scored
 from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.fitting.linearisation import point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.transfer import belongs_to_the_arm
-from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 from armscope.measurement import robust
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
@@ -30,9 +30,9 @@ from armscope.robot import Arm
 
 
 class SharedModel:
-    """Frames and shared effects, what they leave, and changes beside them."""
+    """Frames and shared effects, of several arms errors of each arm's own, what they leave, and changes beside them."""
 
-    def __init__(self, arm: Arm, table: Recordings, group: Indices) -> None:
+    def __init__(self, arm: Arm, table: Recordings, group: Indices, of_arms: bool = False) -> None:
         self.group = np.repeat(group, 3)
         model = fit_frames(arm, table)
         residual = point_residuals(model, table)
@@ -50,8 +50,9 @@ class SharedModel:
         self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
         self.dispersion = 1.0
         self._robust = self.weight = weight
+        self.own = own_errors(model, table, group).weighed(weight) if of_arms else no_own_errors(len(weight))
         self._noise = self._settled_noise()
-        self.weigh_recordings(())
+        self.settle(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
         if (load := load_at_the_flange(arm, table)) is not None:
             self._offer(load, columns_of_rows(model, table, load.terms))
@@ -64,17 +65,36 @@ class SharedModel:
         self.plausible = np.append(self.plausible, [term.plausible for term in placed.terms])
         self._start = np.append(self._start, self._start[-1] + len(placed.terms))
 
-    def weigh_recordings(self, taken: Sequence[Possible]) -> None:
+    @property
+    def settled(self) -> bool:
+        """Whether recordings count by what is known without the changes: nothing else would be found with them."""
+        return self.weighed_alone and not self.of_arms
+
+    @property
+    def of_arms(self) -> bool:
+        """Whether recordings are of several arms, each with errors of its own."""
+        return len(self.own.size) > 0
+
+    def settle(self, taken: Sequence[Possible], of_most: bool = False) -> None:
+        """Recordings count by their noise, and errors of each arm's own are as large as arms of the type have them.
+
+        Args:
+            taken: changes, which would else count as noise, or as what arms of this type have.
+            of_most: whatever stands out, taken or not, does not count as what arms of this type have.
+        """
+        self._weigh_recordings(taken)
+        for _ in range(SHARED.size_rounds if self.of_arms else 0):
+            self.own = learned(self.own, self.residual, self.base(taken), of_most)
+            self._noise = self._settled_noise(taken)
+
+    def _weigh_recordings(self, taken: Sequence[Possible]) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
 
         By what is left when it is fitted alone. Beside what all share, one in which several causes changed would count
         as a noisy one, whose rows then show no change. Where a recording is too short to be fitted alone, by what is
         left beside what all share.
-
-        Args:
-            taken: changes, without which a short recording that has one would count as a noisy one.
         """
-        alone = [each._left(*each._base(())) for each in map(self._alone, range(self.group[-1] + 1))]
+        alone = [each.left(each.base(())) for each in map(self._alone, range(self.group[-1] + 1))]
         self.weighed_alone = min(free for _, free in alone) >= SHARED.free_alone
         if self.weighed_alone:
             self._weigh(np.sqrt([variance for variance, _ in alone]))
@@ -87,7 +107,7 @@ class SharedModel:
 
     def _left_of_each(self, taken: Sequence[Possible]) -> tuple[Array, Array]:
         """(3N,) what is left beside changes, as rows are weighed, and (sets,) how many numbers of each are free."""
-        return left_of_groups(self.residual, *self._base(taken), self.group)
+        return left_of_groups(self.residual, self.base(taken), self.group)
 
     def _weigh(self, noise: Array) -> None:
         """Give recordings weights by their noise (sets,), as multiples of those that they have."""
@@ -98,6 +118,7 @@ class SharedModel:
     def _reweigh(self, relative: Array) -> None:
         self.weight, self.residual = self.weight * relative, self.residual * relative
         self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
+        self.own = self.own.weighed(relative)
 
     def left_over(self, taken: Sequence[Possible]) -> list[LeftOver]:
         """What is left of each recording, alone where it is long enough, and together beside the changes taken."""
@@ -108,8 +129,8 @@ class SharedModel:
             together = own = (weighed[rows] / self.weight[rows]).reshape(-1, 3)
             if self.weighed_alone:
                 alone = self._alone(number)
-                base = alone._base(())
-                own, fewer = alone._left_over(*base).reshape(-1, 3), alone._left(*base)[1]
+                base = alone.base(())
+                own, fewer = alone._left_over(base).reshape(-1, 3), alone.left(base)[1]
             left.append(LeftOver(own, float(fewer), together, self._moved[:, rows[::3]]))
         return left
 
@@ -120,6 +141,7 @@ class SharedModel:
         alone.weight = self.weight[rows]
         alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
         alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
+        alone.own = no_own_errors(len(alone.residual))
         alone._noise = alone._settled_noise()
         return alone
 
@@ -151,7 +173,7 @@ class SharedModel:
         """
         return self.effects[:, self._at(possible.number)] * (possible.there - 0.5)[:, None]
 
-    def _size(self, possible: Possible) -> Array:
+    def size(self, possible: Possible) -> Array:
         """(q,) of a change's columns beside the same effect where it is shared: what both sides show is what counts."""
         square = self.effects[:, self._at(possible.number)] ** 2
         there, elsewhere = square[possible.there].sum(axis=0), square[~possible.there].sum(axis=0)
@@ -160,81 +182,42 @@ class SharedModel:
 
     def _told(self, possible: Possible, variance: float) -> NDArray[np.bool_]:
         """(q,) the numbers that move the rows by more than their noise where they change as much as arms show."""
-        return np.asarray(self._size(possible) > np.sqrt(variance) / possible.plausible)
+        return np.asarray(self.size(possible) > np.sqrt(variance) / possible.plausible)
 
     def evidence(self, taken: Sequence[Possible]) -> float:
         """How likely the rows are with changes, nats: what they fit better less what their numbers cost (Schwarz)."""
-        variance, free = self._left(*self._base(taken))
+        variance, free = self.left(self.base(taken))
         price = sum(int(self._told(each, variance).sum()) for each in taken) / 2 * np.log(max(free, 2.0))
         return float(-len(self.residual) / 2 * np.log(variance * free) / self.dispersion - price)
 
     def scores(self, possible: Sequence[Possible], taken: Sequence[Possible]) -> list[Scored]:
         """How much better each change makes the fit, beside those that were taken."""
-        base, penalty = self._base(taken)
-        variance, free = self._left(base, penalty)
-        half = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ base.T
-        left = self.residual - half.T @ (half @ self.residual)
-        return [self._score(each, half, left, variance, free) for each in possible]
+        base = self.base(taken)
+        variance, _ = self.left(base)
+        columns = [self._seen_columns(each, variance) for each in possible]
+        drawn = Drawn(self.own.family, self.own.numbers) if base.drawn else None
+        return scored(columns, self.residual, base, self.dispersion, drawn)
 
-    def _score(self, possible: Possible, half: Array, left: Array, variance: float, free: float) -> Scored:
+    def _seen_columns(self, possible: Possible, variance: float) -> Array:
+        """(3N, q) of a change's numbers that the rows can show, beside the same effect where it is shared."""
         told = self._told(possible, variance)
-        columns = self.columns(possible)[:, told] / self._size(possible)[told]
-        across = half @ columns
-        values, vectors = np.linalg.eigh(columns.T @ columns - across.T @ across)
-        seen = values > SHARED.unseen
-        if not seen.any() or free - seen.sum() < 1:
-            return Scored(Statistic(0.0, 0, free), 1.0, 0.0)
-        along = (vectors[:, seen].T @ (columns.T @ left)) / np.sqrt(values[seen])
-        gain, q = float(along @ along), int(seen.sum())
-        total = variance * free
-        # the variance without what the change explains: of the model in which it is free
-        without = max(total - gain, SHARED.least_left * total)
-        statistic = Statistic((gain / q) / (without / (free - q)), q, free)
-        # the noise is as unknown as the change: profile likelihood, and what q numbers cost
-        nats = free / 2 * np.log(total / without) / self.dispersion - statistic.price_nats
-        return Scored(statistic, statistic.p(self.dispersion), float(nats))
-
-    def smallest_seen(
-        self, possible: Sequence[Possible], level: float, power: float, found: Sequence[Possible] = ()
-    ) -> Array:
-        """How large changes of one number each must be to be seen, each alone beside all that is shared.
-
-        Args:
-            possible: the n changes.
-            found: what changed, and is no noise.
-            level: the probability below which one is a change.
-            power: in which share of cases.
-
-        Returns:
-            (n,) the sizes, SI units; infinite where the rows tell nothing of it.
-        """
-        base, penalty = self._base(())
-        variance, free = self._left(*self._base(found))
-        columns = np.column_stack([self.columns(each)[:, 0] for each in possible])
-        across = lower_inverse(lower_cholesky(base.T @ base, penalty)) @ (base.T @ columns)
-        square = np.array([self._size(each)[0] ** 2 for each in possible])
-        information = np.sum(columns**2, axis=0) - np.sum(across**2, axis=0)
-        usual = np.array([each.plausible[0] for each in possible])
-        unseen = (square <= variance / usual**2) | (information <= SHARED.unseen * square)
-        # t: F of one number is its square, and noise adds to it or takes away
-        least = stdtrit(free - 1, 1 - level / 2) + stdtrit(free - 1, power)
-        return np.where(unseen, np.inf, least * np.sqrt(self.dispersion * variance / np.where(unseen, 1, information)))
+        return self.columns(possible)[:, told] / self.size(possible)[told]
 
     def variance(self, taken: Sequence[Possible]) -> float:
         """Of what is left, per axis, mm^2."""
-        return self._left(*self._base(taken))[0]
+        return self.left(self.base(taken))[0]
 
     def left_mm(self, taken: Sequence[Possible]) -> list[Array]:
         """What frames leave, what is shared beside them, and changes, too: three of (sets,) RMS per axis, mm."""
-        none = np.zeros(self.frames.shape[1])
+        frames = Beside(self.frames, np.zeros(self.frames.shape[1]))
         return [
-            np.sqrt(np.bincount(self.group, self._left_over(*base) ** 2) / np.bincount(self.group))
-            for base in ((self.frames, none), self._base(()), self._base(taken))
+            np.sqrt(np.bincount(self.group, self._left_over(base) ** 2) / np.bincount(self.group))
+            for base in (frames, self.base(()), self.base(taken))
         ]
 
-    def _left_over(self, base: Array, penalty: Array) -> Array:
+    def _left_over(self, base: Beside) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
-        return np.asarray((self.residual - base @ held_values(self.residual, base, penalty)) / self.weight)
+        return np.asarray((self.residual - base.columns @ held_values(self.residual, base)) / self.weight)
 
     def own_values(self, number: int, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
         """An effect with a value of its own in every recording.
@@ -249,17 +232,17 @@ class SharedModel:
         """
         others = self.scale > 0
         others[self._at(number)] = False
-        base, penalty = self._base(beside, others)
+        base = self.base(beside, others, self.own.other_than(self.effects[:, self._at(number)]))
         own = np.hstack([self.columns_of(number, (k,)) for k in range(count)])
         # what one recording alone does not tell stays at the prior
         scale = np.tile(self._of(self.scale, number), count)
         scale = np.where(scale > 0, scale, 1.0)
-        design = np.hstack([base, own])
-        held = np.concatenate([penalty, self._noise / (SHARED.widened * scale) ** 2])
-        inverse = np.linalg.inv(design.T @ design + np.diag(held))
-        values = (inverse @ (design.T @ self.residual))[-own.shape[1] :]
-        variance, free = self._left(design, held)
-        return values, self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :], free
+        held = np.concatenate([base.penalty, self._noise / (SHARED.widened * scale) ** 2])
+        whole = Beside(np.hstack([base.columns, own]), held, base.drawn)
+        inverse = np.linalg.inv(whole.gram + np.diag(held))
+        values = (inverse @ (whole.columns.T @ self.residual))[-own.shape[1] :]
+        variance, free = self.left(whole)
+        return values, np.asarray(self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :]), free
 
     def _of(self, numbers: Array, number: int) -> Array:
         """An effect's part of numbers that stand one per term."""
@@ -273,25 +256,42 @@ class SharedModel:
         """(3N, q) an effect's columns in the rows of some recordings."""
         return self.effects[:, self._at(number)] * np.isin(self.group, sets)[:, None]
 
-    def _base(self, taken: Sequence[Possible], kept: NDArray[np.bool_] | None = None) -> tuple[Array, Array]:
-        """Columns that all changes stand beside, and the penalty on each; of what is shared, all that can be seen."""
+    def base(
+        self,
+        taken: Sequence[Possible],
+        kept: NDArray[np.bool_] | None = None,
+        own: NDArray[np.bool_] | None = None,
+    ) -> Beside:
+        """All that a change stands beside: errors of each arm's own, frames, changes that were taken, what is shared.
+
+        Args:
+            taken: the changes.
+            kept: (p,) of the shared effects' terms; None for all that can be seen.
+            own: (c,) of the errors of each arm's own; None for all.
+
+        Returns:
+            Columns in units of which one costs as much as the noise, but for frames and changes, which are free.
+        """
         kept = self.scale > 0 if kept is None else kept
+        drawn = self.own.sized if own is None else self.own.sized[:, own]
         free = np.hstack([self.frames, *(self.columns(each) for each in taken)])
         free = free / np.maximum(np.linalg.norm(free, axis=0), 1e-30)
         shared = self.effects[:, kept] * self.scale[kept]
-        small = np.full(free.shape[1], SHARED.held)  # a wrist that was held leaves part of its tool to the base
-        return np.hstack([free, shared]), np.concatenate([small, np.full(shared.shape[1], self._noise)])
+        penalty = np.full(drawn.shape[1] + free.shape[1] + shared.shape[1], self._noise)
+        # a wrist that was held leaves part of its tool to the base
+        penalty[drawn.shape[1] : drawn.shape[1] + free.shape[1]] = SHARED.held
+        return Beside(np.hstack([drawn, free, shared]), penalty, drawn.shape[1])
 
-    def _left(self, base: Array, penalty: Array, gram: Array | None = None) -> tuple[float, float]:
-        """Variance per number, and how many numbers are free, beside columns (of this gram) with penalties."""
-        return variance_left(self.residual, base, penalty, gram)
+    def left(self, base: Beside) -> tuple[float, float]:
+        """Variance per number, and how many numbers are free, beside columns with penalties."""
+        return variance_left(self.residual, base)
 
-    def _settled_noise(self) -> float:
+    def _settled_noise(self, taken: Sequence[Possible] = ()) -> float:
         """The variance that the prior is weighed by, found with itself."""
         self._noise = float(np.mean(self.residual**2)) / SHARED.first_noise + SHARED.least_variance
-        base, penalty = self._base(())
-        gram, frames = base.T @ base, self.frames.shape[1]
+        base = self.base(taken)
+        held = base.penalty == self._noise
         for _ in range(SHARED.noise_rounds):
-            penalty[frames:] = self._noise
-            self._noise = max(self._left(base, penalty, gram)[0], SHARED.least_variance)
+            base = base.held(np.where(held, self._noise, base.penalty))
+            self._noise = max(self.left(base)[0], SHARED.least_variance)
         return self._noise

@@ -1,0 +1,127 @@
+"""Small errors that each of several arms has of its own, and how large those of their type are.
+
+Arms of one type are not alike: zeros are set to a few hundredths of a degree, axes are drilled to tenths of a
+millimetre, and no two gears run the same. Of one arm measured twice that is no matter; of several, every such error
+would be a difference that is surer than chance. An arm is unlike the others where it differs by more than arms of the
+type do, which the recordings themselves say: the variance of each family of errors is a number more of the model
+(variance components; Harville 1977).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import chdtri
+
+from armscope.comparison.constants import SHARED
+from armscope.comparison.penalised import Beside
+from armscope.comparison.sets import columns_of_rows
+from armscope.core.types import Array, Indices
+from armscope.fitting.transfer import belongs_to_the_arm
+from armscope.physics.backgrounds import backgrounds
+from armscope.physics.model import FittedModel
+from armscope.recordings import Recordings
+
+
+@dataclass(frozen=True, eq=False)
+class OwnErrors:
+    """Errors of which every arm has its own.
+
+    Attributes:
+        columns: (3N, c) what each does, mm in units of what is usual of it; zero in the rows of all other arms.
+        family: (c,) number of the family that it is of.
+        arm: (c,) number of the arm that has it.
+        size: (families,) what arms of this type have of it, in units of what is usual.
+        numbers: (families,) from how many numbers that is known.
+    """
+
+    columns: Array
+    family: Indices
+    arm: Indices
+    size: Array
+    numbers: Array
+
+    def weighed(self, weight: Array) -> OwnErrors:
+        """The same as rows are weighed, by (3N,)."""
+        return replace(self, columns=self.columns * weight[:, None])
+
+    def other_than(self, columns: Array) -> NDArray[np.bool_]:
+        """(c,) those that are not the same as what these columns (3N, q) do in the rows of their arm."""
+        different = np.ones(len(self.arm), bool)
+        for arm in np.unique(self.arm):
+            these = self.arm == arm
+            own = self.columns[:, these]
+            rows = np.any(own != 0, axis=1)
+            left = own[rows] - columns[rows] @ np.linalg.lstsq(columns[rows], own[rows])[0]
+            different[these] = np.sum(left**2, axis=0) > SHARED.unseen * np.sum(own**2, axis=0)
+        return different
+
+    @property
+    def sized(self) -> Array:
+        """(3N, c) what each does where it is as large as arms of this type have it."""
+        return self.columns * self.size[self.family]
+
+
+def no_own_errors(rows: int) -> OwnErrors:
+    """Of recordings of one arm, which has the same errors in all of ``rows`` numbers."""
+    none = np.zeros(0, int)
+    return OwnErrors(np.zeros((rows, 0)), none, none, np.zeros(0), np.zeros(0))
+
+
+def own_errors(model: FittedModel, table: Recordings, arm_of_row: Indices) -> OwnErrors:
+    """Errors that every arm of a type has a little of, for each of several arms.
+
+    Args:
+        model: the nominal arm with frames.
+        table: N rows of all arms.
+        arm_of_row: (N,) number of the arm that each is of.
+
+    Returns:
+        As large as is usual.
+    """
+    columns, family = [], []
+    kinds: dict[tuple[Hashable, ...], int] = {}
+    for name, placed in backgrounds(model.arm, table).items():
+        for each in filter(belongs_to_the_arm, placed):
+            columns.append(columns_of_rows(model, table, each.terms) * np.array(each.prior_scale))
+            # lengths and angles, and a gear's waves, need not be to each other as is usual
+            alike = [(name, term.unit, each.scanned) for term in each.terms]
+            family += [kinds.setdefault(kind, len(kinds)) for kind in alike]
+    of_one = np.hstack(columns)
+    arms = range(int(arm_of_row.max()) + 1)
+    group = np.repeat(arm_of_row, 3)
+    each_alone = np.hstack([of_one * (group == arm)[:, None] for arm in arms])
+    seen = np.any(each_alone != 0, axis=0)
+    families, names = np.tile(family, len(arms))[seen], np.repeat(list(arms), len(family))[seen]
+    return OwnErrors(each_alone[:, seen], families, names, np.ones(len(kinds)), np.ones(len(kinds)))
+
+
+def learned(own: OwnErrors, rows: Array, base: Beside, of_most: bool = False) -> OwnErrors:
+    """One step towards the sizes under which the rows are likeliest (MacKay 1992).
+
+    Args:
+        own: as large as they are believed to be.
+        rows: (3N,) what is fitted.
+        base: by this, in which those errors are what is drawn.
+        of_most: as large as the half of them says, whatever stands out, and not as their mean square.
+
+    Returns:
+        The same with other sizes.
+    """
+    drawn, families = slice(base.drawn), len(own.size)
+    values = (base.inverse.T @ (base.inverse @ (base.columns.T @ rows)))[drawn]
+    determined = 1 - base.penalty[drawn] * np.sum(base.inverse[:, drawn] ** 2, axis=0)
+    # a family of which the rows tell less than one number has no more than that
+    numbers = np.maximum(np.bincount(own.family, determined, minlength=families), 1.0)
+    square = np.bincount(own.family, values**2, minlength=families) / numbers
+    if of_most:
+        told = determined > SHARED.unseen
+        relative = np.where(told, values**2 / np.where(told, determined, 1.0), np.nan)
+        halves = [relative[told & (own.family == each)] for each in range(families)]
+        most = np.array([np.median(half) / chdtri(1, 0.5) if len(half) else 0.0 for half in halves])
+        square = np.minimum(square, most)
+    size = own.size * np.maximum(np.sqrt(square), SHARED.least_size)
+    return replace(own, size=size, numbers=numbers)

@@ -1,0 +1,33 @@
+"""How far a zero must move to be seen: farther where arms differ anyway, never where a frame takes it up."""
+
+import numpy as np
+import pytest
+
+from armscope.comparison.seen import seen
+from armscope.comparison.sets import stacked
+from armscope.comparison.shared_model import SharedModel
+from tests.comparison.test_changes import ARM, session
+
+TABLES = {"a": session(51), "b": session(52)}
+
+
+def least(of_arms: bool = False, **tables) -> dict[str, float]:
+    model = SharedModel(ARM, *stacked(ARM, TABLES | tables), of_arms)
+    possible = model.possible_changes([((1,), (0,))])
+    return {each.location: each.least_rad for each in seen(model, possible, ())}
+
+
+def test_the_first_joint_hides_in_the_base_and_others_show_by_tenths_of_a_milliradian() -> None:
+    found = least()
+    assert np.isinf(found["joint 1"])
+    assert 5e-5 < found["joint 2"] < 1e-3
+
+
+def test_twice_the_noise_takes_a_zero_that_moves_farther() -> None:
+    quiet, noisy = least(), least(b=session(52, noise_mm=0.12))
+    assert noisy["joint 3"] > 1.5 * quiet["joint 3"]
+
+
+@pytest.mark.long
+def test_of_several_arms_a_zero_must_stand_out_of_what_they_differ_by() -> None:
+    assert least(of_arms=True)["joint 3"] > least()["joint 3"]
