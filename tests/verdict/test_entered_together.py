@@ -14,7 +14,8 @@ from armscope.report.sections import cures, effects
 from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
 from armscope.verdict.effects import Parameter
-from armscope.verdict.entered_together import pays_together
+from armscope.verdict.entered_together import CALIBRATED_LAST, CALIBRATION, calibrated_last, pays_together
+from armscope.verdict.tasks import Task
 from armscope.verdict.work_order import work_order
 from tests.report import verdicts
 
@@ -80,6 +81,34 @@ def test_nothing_is_entered_together_that_leaves_as_much() -> None:
     left, idle = np.random.default_rng(0).normal(0, 1, (2, 50, 3))
     assert not pays_together([(task, 0.1 * idle), (task, -0.1 * idle)], left)
     assert not pays_together([(task, left)], left), "one is no set"
+
+
+def test_what_pays_only_after_a_calibration_is_done_before_it_is_measured_for() -> None:
+    """A calibration takes up part of a wave that is still there: corrected after it, the wave was corrected twice."""
+    wave = verdicts.found("joint_compliance", "joint 2", Parameter("compliance", "rad/(N m)", 1e-6, 1e-8))
+    case = verdicts.case(effects=(wave,))
+    worth = contributions(case.verdict)
+    large, other, noise = np.random.default_rng(0).normal(0, 1, (3, *worth.left.shape))
+    # alone it makes the error larger: the geometry hides part of it
+    causes = (replace(worth.causes[0], moved=-0.3 * large + 0.1 * other),)
+    worth = replace(worth, causes=causes, smaller=None, single=(), small={"geometric": large}, left=0.01 * noise)
+    (task,) = (each for each in work_order(case.verdict, worth).tasks if not each.instead)
+    assert task.change == CALIBRATION
+    assert task.what.startswith("Joint 2 gives way")
+    assert "; and small errors of geometry" in task.what
+    assert task.instruction.index("(1)") < task.instruction.index("(2) Calibrate the geometry")
+    assert task.instruction.startswith(CALIBRATED_LAST)
+    assert "joint_compliance at joint 2" in task.members
+    assert not task.only_after
+
+
+def test_what_is_done_before_a_calibration_stays_a_step_of_its_own() -> None:
+    tasks = [
+        Task(what, "whole arm", change, "", "Do it.", "", "", members=members)
+        for what, change, members in (("A", "gear", ("a at b",)), ("B", CALIBRATION, ()), ("C", "elastic model", ()))
+    ]
+    jobs = [(task, np.zeros((2, 3))) for task in tasks]
+    assert calibrated_last(jobs) == jobs
 
 
 def test_payload_data_come_after_what_gives_way_and_promise_nothing_alone(tmp_path: Path) -> None:

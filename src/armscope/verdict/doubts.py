@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from armscope.core.words import enumerated
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
 from armscope.verdict.sentences import exact_phrase, kind_and_place
-from armscope.verdict.wording import effect_in_words, enumerated, plain
+from armscope.verdict.wording import effect_in_words, plain
 
 OPEN = "to be settled"
 """What is changed about a cause that is not settled: nothing yet."""

@@ -10,13 +10,17 @@ import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
+from armscope.core.words import enumerated, uncapitalised
 from armscope.verdict.constants import ORDER
 from armscope.verdict.doubts import OPEN
 from armscope.verdict.tasks import Task
-from armscope.verdict.wording import enumerated, places_in_words
+from armscope.verdict.wording import places_in_words
 
 Job = tuple[Task, Array]
 """A task, and what the tool moves by what it cures."""
+CALIBRATION = "calibration"
+"""What is changed where zeros and rows are fitted afresh, to new measurements."""
+CALIBRATED_LAST = "In this order, and with what comes first already done when the arm is measured for the calibration."
 TOGETHER = "Enter all of these before anything is measured or moved by them; one without the others makes it worse."
 
 
@@ -55,7 +59,7 @@ def in_one_step(jobs: Sequence[Job]) -> Task:
     otherwise = [f"({n}) {task.cure}" for n, task in enumerate(tasks, start=1) if task.cure]
     return replace(
         tasks[0],
-        what=f"Only together: {'; '.join(task.what[:1].lower() + task.what[1:] for task in tasks)}",
+        what=f"Only together: {'; '.join(uncapitalised(task.what) for task in tasks)}",
         place=places_in_words(list(dict.fromkeys(task.place for task in tasks))),
         change=f"{enumerated(list(dict.fromkeys(task.change for task in tasks)))} together",
         motion="; ".join(task.motion for task in tasks if task.motion),
@@ -63,5 +67,36 @@ def in_one_step(jobs: Sequence[Job]) -> Task:
         cure=" ".join(otherwise),
         confirm=" ".join(dict.fromkeys(task.confirm for task in tasks)),
         unless=" ".join(dict.fromkeys(task.unless for task in tasks if task.unless)),
+        members=tuple(member for task in tasks for member in task.members),
+    )
+
+
+def calibrated_last(jobs: Sequence[Job]) -> list[Job]:
+    """A calibration with what is named after it as one step, in which the calibration comes last.
+
+    By new measurements it takes up part of whatever is still there. What was then corrected by its first size was
+    corrected twice: a wave of a gear left more than before.
+    """
+    at = next((n for n, (task, _) in enumerate(jobs) if task.change == CALIBRATION), len(jobs))
+    after = [job for job in jobs[at + 1 :] if job[0].members]
+    if not after:
+        return list(jobs)
+    others = [job for job in jobs[at + 1 :] if not job[0].members]
+    one = _and_calibrated([task for task, _ in after], jobs[at][0]), moved_by([*after, jobs[at]])
+    return [*jobs[:at], one, *others]
+
+
+def _and_calibrated(first: Sequence[Task], calibration: Task) -> Task:
+    tasks = [*first, calibration]
+    whats = [first[0].what, *(uncapitalised(task.what) for task in tasks[1:])]
+    numbered = [f"({n}) {task.instruction}" for n, task in enumerate(tasks, start=1)]
+    return replace(
+        calibration,
+        what=f"{'; '.join(whats[:-1])}; and {whats[-1]}",
+        instruction=" ".join([CALIBRATED_LAST, *numbered]),
+        cure=" ".join(f"({n}) {task.cure}" for n, task in enumerate(first, start=1) if task.cure),
+        motion="; ".join(task.motion for task in first if task.motion),
+        confirm=" ".join(dict.fromkeys(task.confirm for task in tasks)),
+        unless=" ".join(dict.fromkeys(task.unless for task in first if task.unless)),
         members=tuple(member for task in tasks for member in task.members),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
+from armscope.core.words import enumerated, uncapitalised
 from armscope.physics.clause import Number, Told, say
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
@@ -23,7 +24,6 @@ from armscope.verdict.wording import (
     beyond_arms,
     capitalised,
     effect_in_words,
-    enumerated,
     implausible,
     main_and_minor,
     millimetres,
@@ -47,7 +47,7 @@ def headline(verdict: Diagnosis) -> str:
         return f"{other} All that follows only describes the difference between the two."
     doubt = unusable(verdict)
     if doubt:
-        return f"These recordings cannot be relied on; do not act on anything below: {_small(doubt)}."
+        return f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
     if verdict.answer == "nothing missing":
         rounded = any(notice.kind == "rounded angles" for notice in verdict.notices)
         digits = " (some of it from rounded angles: record more digits)" if rounded else ""
@@ -266,12 +266,7 @@ def _cannot_tell(verdict: Diagnosis) -> str:
     poses = verdict.next_poses
     further = 0 if poses is None or not poses.settle else len(poses.motor_angles)
     settle = f"; {spelled(further)} further poses would settle it" if further else ""
-    return f"Cannot tell: {_small(why)}{settle}."
-
-
-def _small(text: str) -> str:
-    """With a small first letter, unless it begins with a name."""
-    return f"{text[:1].lower() if text[1:2].islower() else text[:1]}{text[1:]}"
+    return f"Cannot tell: {uncapitalised(why)}{settle}."
 
 
 def _vague(effect: FoundEffect) -> str:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.core.numerals import shown_unit
+from armscope.core.words import enumerated
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
@@ -151,11 +152,6 @@ def places_in_words(places: Sequence[str]) -> str:
         which = enumerated([number for number in sorted(numbers, key=lambda each: int(each or 0)) if number])
         phrases.append(f"{kind}{'s' * (len(numbers) > 1)} {which}".strip())
     return enumerated(phrases)
-
-
-def enumerated(words: Sequence[str], last: str = "and") -> str:
-    """ "one, two and three"."""
-    return f" {last} ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
 
 
 def capitalised(text: str) -> str:

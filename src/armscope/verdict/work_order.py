@@ -8,19 +8,20 @@ from dataclasses import dataclass, replace
 from armscope.core.averages import rms
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.core.words import enumerated, uncapitalised
 from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRANSMISSION
 from armscope.verdict.constants import ORDER, REPAIRS
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.entered_together import Job, in_one_step, moved_by, pays_together
+from armscope.verdict.entered_together import CALIBRATION, Job, calibrated_last, in_one_step, moved_by, pays_together
 from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.tasks import Task, task_of
-from armscope.verdict.wording import GROWS, SMALL, capitalised, enumerated, places_in_words
+from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
 
 ALL_AT_ONCE = {
-    GEOMETRIC: "calibration", ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
+    GEOMETRIC: CALIBRATION, ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
     THERMAL: "temperature",
 }  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
@@ -68,7 +69,7 @@ class WorkOrder:
     @property
     def by_calibration(self) -> str:
         """The step that fits zeros and rows afresh, as a number in a table tells it; "" where there is none."""
-        steps = (n for n, task in enumerate(self.tasks, start=1) if task.change == ALL_AT_ONCE[GEOMETRIC])
+        steps = (n for n, task in enumerate(self.tasks, start=1) if task.change == CALIBRATION)
         return next((f"by the calibration of step {n}, not besides" for n in steps), "")
 
     def step_of(self, *asked: str) -> str:
@@ -84,7 +85,7 @@ class WorkOrder:
             member = next((each for each in asked if each in task.members), None)
             if member is None:
                 continue
-            if task.change == ALL_AT_ONCE[GEOMETRIC]:
+            if task.change == CALIBRATION:
                 return self.by_calibration
             if len(task.members) > 1:
                 others = places_in_words([each.partition(" at ")[2] for each in task.members if each != member])
@@ -119,32 +120,30 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     families = [each.effects[0].family for each in (*worth.causes, *single)] + [cause.family for cause, _ in told]
     of_geometry = zip((*major, *minor, *together), families, strict=True)
     geometric = [job for job, family in of_geometry if family == GEOMETRIC and not _among(job, first)]
-    small = [_calibrating(job, geometric) if job[0].change == ALL_AT_ONCE[GEOMETRIC] else job for job in small]
+    small = [_calibrating(job, geometric) if job[0].change == CALIBRATION else job for job in small]
     alone |= {id(task): rms(worth.before - moved) for task, moved in small}
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
     done_so_far = [*first, *then, *geometric]
     last, left, unpaid = _by_gain([job for job in (*repairs, *small) if not _among(job, done_so_far)], left)
-    if not any(task.change == ALL_AT_ONCE[GEOMETRIC] for task, _ in (*then, *last)):  # none puts their geometry right
+    if not any(task.change == CALIBRATION for task, _ in (*then, *last)):  # none puts their geometry right
         by_themselves = [job for job in repairs if _among(job, geometric)]
         more, left, waiting = _by_gain(by_themselves, left)
         last, unpaid, geometric = [*last, *more], [*unpaid, *waiting], []
     smaller, left, _ = _by_gain([job for job in minor if not _among(job, geometric)], left, ORDER.worth_of_minor)
     unpaid = [job for job in unpaid if any(job[0] is task for task, _ in repairs)]
-    against = pays_together(unpaid, left)
-    if against:  # each alone makes it worse: one step of all, and what pays after it
-        joint = (in_one_step(against), moved_by(against))
-        alone[id(joint[0])] = rms(worth.before - joint[1])
+    joint: list[Job] = []
+    if against := pays_together(unpaid, left):  # each alone makes it worse: one step of all, and what pays after it
+        joint = [(in_one_step(against), moved_by(against))]
         waiting = [job for job in unpaid if not _among(job, against)]
-        more, left, unpaid = _by_gain([joint, *waiting], left)
+        more, left, unpaid = _by_gain([*joint, *waiting], left)
         smaller = [*smaller, *more]
-    done = [
-        replace(task, alone_mm=alone[id(task)], then_mm=then_mm, only_after=alone[id(task)] >= before)
-        for task, then_mm in (*first, *then, *last, *smaller)
-    ]
+    moved = {id(task): moved for task, moved in (*repairs, *minor, *small, *joint)}
+    jobs_in_turn = [(task, moved[id(task)]) for task, _ in (*first, *then, *last, *smaller)]
+    done = _in_turn(calibrated_last(jobs_in_turn), worth.before)
     done = [_after_what_it_needs(beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
-        names = [what[:1].lower() + what[1:] for what in moving]
+        names = [uncapitalised(what) for what in moving]
         done.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
@@ -217,6 +216,15 @@ def _by_gain(
         done.append((best[0], rms(left)))
         waiting = [job for job in waiting if job is not best]
     return done, left, waiting
+
+
+def _in_turn(jobs: Sequence[Job], before: Array) -> list[Task]:
+    """Tasks with the error that each leaves alone, and after all before it."""
+    done, left = [], before
+    for task, moved in jobs:
+        left, alone = left - moved, rms(before - moved)
+        done.append(replace(task, alone_mm=alone, then_mm=rms(left), only_after=alone >= rms(before)))
+    return done
 
 
 def _awaits(job: Job, others: Sequence[Job]) -> bool:

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.fitting.weights import autocorrelation_time
 from armscope.motion.library.clauses import run_in_words
 from armscope.motion.summary.constants import DIFFERING, LASTING
 from armscope.motion.summary.lasting import LastingTorque, hats
-from armscope.verdict.wording import enumerated
 
 _REASONS = (("a zero set anew",), ("another drive gain", "other friction"))
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.motion.fitting.consistency import PARTS, PathAgreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
@@ -14,7 +15,7 @@ from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, Parameter
-from armscope.verdict.wording import effect_in_words, enumerated
+from armscope.verdict.wording import effect_in_words
 
 
 def doubt_of(selected: SelectedCauses, number: int, agreed: PathAgreement, parameters: Sequence[Parameter]) -> str:

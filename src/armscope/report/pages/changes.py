@@ -18,10 +18,11 @@ from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of, wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
+from armscope.core.words import enumerated
 from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
-from armscope.verdict.wording import capitalised, decimals_for, enumerated, millimetres, places_in_words, read_parameter
+from armscope.verdict.wording import capitalised, decimals_for, millimetres, places_in_words, read_parameter
 
 PAGE, DATA, TABLE, FIGURE = "changes.html", "comparison.json", "history.csv", "history.png"
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
