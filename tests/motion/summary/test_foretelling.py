@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.inference.evidence import evaluate
+from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import SelectedEffect, build_problem
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary import foretelling
-from armscope.motion.summary.foretelling import with_backgrounds_that_foretell
+from armscope.motion.summary.foretelling import held_out_gains, with_backgrounds_that_foretell
 from tests.motion.moving import moved, robot
 
 
@@ -42,3 +49,29 @@ def test_one_that_does_hardly_any_stays(selected: SelectedCauses, monkeypatch: p
 
 def test_where_the_library_has_all_that_there_is_nothing_goes(selected: SelectedCauses) -> None:
     assert with_backgrounds_that_foretell(selected)[1] == frozenset()
+
+
+def of_two_runs(slope_of_slow: float, slope_of_fast: float, slow: float) -> Any:
+    """A column, ``slow`` times as large in one run as in the other, and what it makes in each; a frame beside."""
+    rng, rows, noise, blocks = np.random.default_rng(6), 200, 0.1, []
+    for slope, size in ((slope_of_slow, slow), (slope_of_fast, 1.0)):
+        X = np.column_stack([np.ones(rows), size * rng.normal(size=rows)])
+        y = slope * X[:, 1] + rng.normal(0, noise, rows)
+        blocks.append(NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(rows)))
+    space = ModelSpace(np.arange(1), (), (Candidate("law", "here", np.array([1]), np.ones(1)),))
+    problem = build_problem(space, total(blocks), 0.5 * noise)
+    best = evaluate(problem, (SelectedEffect(0, len(problem.sizes) - 1),), (), noise)
+    return SimpleNamespace(blocks=blocks, problem=problem, best=best)
+
+
+def test_what_a_slow_run_leaves_open_is_not_held_against_a_law() -> None:
+    """By the slow run's best guess, off by more than the law itself, the fast one is met worse than by none."""
+    law = of_two_runs(1.0, 1.0, 0.002)
+    guess = evaluate(law.problem.with_equations(law.blocks[0]), law.best.chosen, (), law.best.noise)
+    assert abs(float(guess.means(np.array([1]))[0] / law.problem.scale[1]) - 1) > 1
+    assert held_out_gains(law)[0] > 0
+
+
+def test_what_a_run_is_sure_of_is_held_against_a_law_that_is_another_elsewhere() -> None:
+    assert held_out_gains(of_two_runs(-1.0, 1.0, 0.5))[0] < 0
+    assert held_out_gains(of_two_runs(1.0, 1.0, 0.5))[0] > 0

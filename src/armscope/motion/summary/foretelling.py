@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, at_noise
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.consistency import Weighed
@@ -66,24 +66,27 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
 
 
 def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
-    """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
+    """Nats by which effects, with a hypothesis' background and noise and fitted to the other blocks, miss each block.
 
-    Beside those of nothing at all.
+    That is minus the log density of a block by all that the others leave open, which is evidence of the whole less
+    that of the others. Only what the others are sure of can be wrong there: a slow run leaves open what a fast one has,
+    and by its best guess alone all that is free would be blamed for that.
 
     Args:
         selected: with B blocks.
         asked: A hypotheses, and the effects that are fitted.
 
     Returns:
-        (A, B).
+        (A, B), beside those of any other hypothesis of the same noise.
     """
     nats = np.zeros((len(asked), len(selected.blocks)))
-    for held, block in enumerate(selected.blocks):
+    for held in range(len(selected.blocks)):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
+        trained = selected.problem.with_equations(rest)
         for row, (best, effects) in zip(nats, asked, strict=True):
-            fitted = evaluate(trained, effects, best.background, best.noise)
-            at = fitted.columns
-            squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
-            row[held] = float(squares) / (2 * best.noise**2)
+            of_rest, of_all = (
+                at_noise(problem, effects, best.background, best.noise).log_evidence
+                for problem in (trained, selected.problem)
+            )
+            row[held] = of_rest - of_all
     return nats
