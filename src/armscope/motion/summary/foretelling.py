@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis, at_noise
+from armscope.inference.evidence import Hypothesis, at_noise, evaluate
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.consistency import Weighed
@@ -37,7 +37,7 @@ def with_backgrounds_that_foretell(selected: SelectedCauses) -> tuple[SelectedCa
         replace(best, background=tuple(0 if f in held else n for f, n in zip(families, best.background, strict=True)))
         for held in choices
     ]
-    missed = misfits(selected, [(other, best.chosen) for other in others])
+    missed = surprises(selected, [(other, best.chosen) for other in others])
     worse = np.median(missed[0] - missed, axis=1)
     most = int(np.argmax(worse))
     if worse[most] <= HELD_OUT.harm * selected.problem.n / (2 * len(selected.blocks)):
@@ -66,27 +66,48 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
 
 
 def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
-    """Nats by which effects, with a hypothesis' background and noise and fitted to the other blocks, miss each block.
+    """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
 
-    That is minus the log density of a block by all that the others leave open, which is evidence of the whole less
-    that of the others. Only what the others are sure of can be wrong there: a slow run leaves open what a fast one has,
-    and by its best guess alone all that is free would be blamed for that.
+    Beside those of nothing at all.
 
     Args:
         selected: with B blocks.
         asked: A hypotheses, and the effects that are fitted.
 
     Returns:
-        (A, B), beside those of any other hypothesis of the same noise.
+        (A, B).
     """
     nats = np.zeros((len(asked), len(selected.blocks)))
-    for held in range(len(selected.blocks)):
+    for held, block in enumerate(selected.blocks):
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
-        trained = selected.problem.with_equations(rest)
+        trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
         for row, (best, effects) in zip(nats, asked, strict=True):
-            of_rest, of_all = (
-                at_noise(problem, effects, best.background, best.noise).log_evidence
-                for problem in (trained, selected.problem)
-            )
-            row[held] = of_rest - of_all
+            fitted = evaluate(trained, effects, best.background, best.noise)
+            at = fitted.columns
+            squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
+            row[held] = float(squares) / (2 * best.noise**2)
+    return nats
+
+
+def surprises(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
+    """Nats by which blocks surprise effects, with a hypothesis' background and noise, that know the other blocks.
+
+    That is minus the log density of a block by all that the others leave open: their evidence less that of all. A slow
+    run leaves open what a fast one has; by its best guess alone, as in `misfits`, what is free in every joint would be
+    blamed for that.
+
+    Args:
+        selected: with B blocks.
+        asked: A hypotheses of one noise, and the effects that are fitted.
+
+    Returns:
+        (A, B), each block beside what is the same of all hypotheses.
+    """
+    nats = np.zeros((len(asked), len(selected.blocks)))
+    for row, (best, effects) in zip(nats, asked, strict=True):
+        whole = at_noise(selected.problem, effects, best.background, best.noise).log_evidence
+        for held in range(len(row)):
+            rest = total([other for number, other in enumerate(selected.blocks) if number != held])
+            trained = selected.problem.with_equations(rest)
+            row[held] = at_noise(trained, effects, best.background, best.noise).log_evidence - whole
     return nats
