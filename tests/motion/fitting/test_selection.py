@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.selection import _at_rest, starting_weights
 from armscope.motion.fitting.space import build_space
 from armscope.motion.library.layout import TorqueLayout
@@ -107,20 +104,6 @@ def test_friction_that_is_not_as_stated_counts_beside_the_laws_of_a_speed_curve(
     departures = {at["coulomb_friction", "direction"], at["viscous_friction", "speed"]}
     assert departures <= curve.special_cases
     assert curve.excess(frozenset(two | departures)) == 0
-
-
-def test_waves_that_no_curve_follows_stand_beside_a_cable_that_bends_once() -> None:
-    """A gear ripples whatever its hoses do: for both, a spring stood beside the ripple."""
-    seen = replace(seen_in(robot(), list(stretches(moved(robot(), 1))), 0.02), waves={1: ((3, 30), 60)})
-    placed = place_causes(seen)
-    space = build_space(TorqueLayout(seen.arm, tuple(placed), False), np.ones(3), 200.0)
-    at = {(each.cause.name, each.variant): n for n, each in enumerate(placed) if each.joints == (1,)}
-    smooth, sharp = (at["cable_torque", str(knots)] for knots in (LIBRARY.knots_of_bend, LIBRARY.knots_of_position))
-    few, many = at["torque_ripple", "3"], at["torque_ripple", "30"]
-    assert many not in space.candidates[smooth].excludes
-    assert smooth not in space.candidates[many].excludes
-    assert few in space.candidates[smooth].excludes
-    assert {few, many} <= space.candidates[sharp].excludes
 
 
 @pytest.mark.parametrize(

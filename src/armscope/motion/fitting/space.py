@@ -16,15 +16,14 @@ from armscope.inference.model_space import (
     ModelSpace,
     ToleranceFamily,
 )
-from armscope.motion.constants import LIBRARY, PRIOR
+from armscope.motion.constants import PRIOR
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
-from armscope.motion.library.laws import Law, is_of_a_gain
+from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
-from armscope.motion.library.waves import most_waves
 
 OF_MASSES, OF_REVERSALS = frozenset({"masses", "link masses"}), frozenset({"reversals"})
 """Names of the families by which masses are off without a name, and by which friction changes sides."""
@@ -209,7 +208,7 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
         return one.driver == other.driver
     if one.is_curve or other.is_curve:
         curve, special = (one, other) if one.is_curve else (other, one)
-        return special.cause in CONTAINED[curve.driver] and not _beyond(curve, special)
+        return special.cause in CONTAINED[curve.driver]
     for owner, owned in ((one, other), (other, one)):
         own = (OWNS.get(owner.cause), OWNED.get(owner.driver) if owner.cause is catalogue.CURVE else None)
         if owned.cause in own or _at_all_temperatures(owner) is owned.cause:
@@ -217,18 +216,6 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
     if one.cause in CHANGES and one.runs == other.runs:
         return one.cause is other.cause
     return one.cause is other.cause and not (one.runs or other.runs)
-
-
-def _beyond(curve: PlacedCause, special: PlacedCause) -> bool:
-    """Whether one is waves of which the range holds more than any curve follows, beside a curve that bends once.
-
-    What a curve of more bends leaves is its own: a cable that ends sharply needs it, and has no waves.
-    """
-    if special.cause is not catalogue.RIPPLE or not isinstance(curve.columns, Law):
-        return False
-    low, high, knots = curve.columns.numbers
-    most = most_waves((high - low) / (2 * np.pi), LIBRARY.knots_of_position)
-    return knots == LIBRARY.knots_of_bend and special.scanned[0][2] > most
 
 
 def _at_the_same_moments(one: PlacedCause, other: PlacedCause) -> bool:
