@@ -93,6 +93,19 @@ def test_an_offset_counts_beside_the_laws_of_a_speed_curve() -> None:
     assert curve.excess(frozenset(two | {by_name["stribeck_friction"]})) == 1
 
 
+def test_friction_that_is_not_as_stated_counts_beside_the_laws_of_a_speed_curve() -> None:
+    """Where it is not stated it is free: what is known of an arm does not make its friction simpler."""
+    arm = robot(**STATED)
+    placed = place_causes(seen_in(arm, list(stretches(moved(arm, 1))), 0.02))
+    space = build_space(TorqueLayout(arm, tuple(placed), False), np.ones(3), 200.0)
+    at = {(each.cause.name, each.driver): n for n, each in enumerate(placed) if each.joints == (1,)}
+    curve = space.candidates[at["unknown", "speed"]]
+    two = {at["asymmetric_friction", "direction"], at["viscous_curve", "speed"]}
+    departures = {at["coulomb_friction", "direction"], at["viscous_friction", "speed"]}
+    assert departures <= curve.special_cases
+    assert curve.excess(frozenset(two | departures)) == 0
+
+
 @pytest.mark.parametrize(
     ("rounds", "rests"),
     [

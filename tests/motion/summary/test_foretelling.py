@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.inference.evidence import evaluate
+from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.normal_equations import NormalEquations, total
+from armscope.inference.problem import SelectedEffect, build_problem
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary import foretelling
-from armscope.motion.summary.foretelling import with_backgrounds_that_foretell
+from armscope.motion.summary.foretelling import misfits, surprises, with_backgrounds_that_foretell
 from tests.motion.moving import moved, robot
 
 
@@ -29,16 +37,45 @@ def harming(selected: SelectedCauses, share: float) -> Array:
 
 @pytest.mark.long
 def test_a_background_that_does_harm_elsewhere_goes(selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(foretelling, "misfits", lambda at, asked: harming(selected, 0.5))
+    monkeypatch.setattr(foretelling, "surprises", lambda at, asked: harming(selected, 0.5))
     found, without = with_backgrounds_that_foretell(selected)
     assert without == {"reversals"}
     assert not np.isin(selected.space.families[1].columns, found.best.columns).any()
 
 
 def test_one_that_does_hardly_any_stays(selected: SelectedCauses, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(foretelling, "misfits", lambda at, asked: harming(selected, 0.05))
+    monkeypatch.setattr(foretelling, "surprises", lambda at, asked: harming(selected, 0.05))
     assert with_backgrounds_that_foretell(selected) == (selected, frozenset())
 
 
 def test_where_the_library_has_all_that_there_is_nothing_goes(selected: SelectedCauses) -> None:
     assert with_backgrounds_that_foretell(selected)[1] == frozenset()
+
+
+def of_two_runs(slope_of_slow: float, slope_of_fast: float, slow: float) -> Any:
+    """A column, ``slow`` times as large in one run as in the other, and what it makes in each; a frame beside."""
+    rng, rows, noise, blocks = np.random.default_rng(6), 200, 0.1, []
+    for slope, size in ((slope_of_slow, slow), (slope_of_fast, 1.0)):
+        X = np.column_stack([np.ones(rows), size * rng.normal(size=rows)])
+        y = slope * X[:, 1] + rng.normal(0, noise, rows)
+        blocks.append(NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(rows)))
+    space = ModelSpace(np.arange(1), (), (Candidate("law", "here", np.array([1]), np.ones(1)),))
+    problem = build_problem(space, total(blocks), 0.5 * noise)
+    best = evaluate(problem, (SelectedEffect(0, len(problem.sizes) - 1),), (), noise)
+    return SimpleNamespace(blocks=blocks, problem=problem, best=best)
+
+
+def worth(law: Any, of: Callable[..., Array]) -> float:
+    """Nats by which the law betters the blocks that took no part."""
+    without, with_it = of(law, [(law.best, ()), (law.best, law.best.chosen)])
+    return float(np.median(without - with_it))
+
+
+def test_what_a_slow_run_leaves_open_is_no_surprise() -> None:
+    """By its best guess, which is off by more than the law itself, the fast one is met worse than by none."""
+    law = of_two_runs(1.0, 1.0, 0.002)
+    assert worth(law, misfits) < 0 < worth(law, surprises)
+
+
+def test_what_a_run_is_sure_of_and_is_another_elsewhere_surprises() -> None:
+    assert worth(of_two_runs(-1.0, 1.0, 0.5), surprises) < 0 < worth(of_two_runs(1.0, 1.0, 0.5), surprises)

@@ -141,7 +141,7 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
                 excludes=excludes,
                 special_cases=special,
                 side_by_side=2,
-                common=frozenset(n for n in special if placed[n].cause is catalogue.OFFSET),
+                common=frozenset(n for n in special if placed[n].of_background is not None),
             )
         )
     return tuple(candidates)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis, evaluate
+from armscope.inference.evidence import Hypothesis, at_noise, evaluate
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.consistency import Weighed
@@ -37,7 +37,7 @@ def with_backgrounds_that_foretell(selected: SelectedCauses) -> tuple[SelectedCa
         replace(best, background=tuple(0 if f in held else n for f, n in zip(families, best.background, strict=True)))
         for held in choices
     ]
-    missed = misfits(selected, [(other, best.chosen) for other in others])
+    missed = surprises(selected, [(other, best.chosen) for other in others])
     worse = np.median(missed[0] - missed, axis=1)
     most = int(np.argmax(worse))
     if worse[most] <= HELD_OUT.harm * selected.problem.n / (2 * len(selected.blocks)):
@@ -86,4 +86,28 @@ def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedE
             at = fitted.columns
             squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
             row[held] = float(squares) / (2 * best.noise**2)
+    return nats
+
+
+def surprises(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
+    """Nats by which blocks surprise effects, with a hypothesis' background and noise, that know the other blocks.
+
+    That is minus the log density of a block by all that the others leave open: their evidence less that of all. A slow
+    run leaves open what a fast one has; by its best guess alone, as in `misfits`, what is free in every joint would be
+    blamed for that.
+
+    Args:
+        selected: with B blocks.
+        asked: A hypotheses of one noise, and the effects that are fitted.
+
+    Returns:
+        (A, B), each block beside what is the same of all hypotheses.
+    """
+    nats = np.zeros((len(asked), len(selected.blocks)))
+    for row, (best, effects) in zip(nats, asked, strict=True):
+        whole = at_noise(selected.problem, effects, best.background, best.noise).log_evidence
+        for held in range(len(row)):
+            rest = total([other for number, other in enumerate(selected.blocks) if number != held])
+            trained = selected.problem.with_equations(rest)
+            row[held] = at_noise(trained, effects, best.background, best.noise).log_evidence - whole
     return nats
