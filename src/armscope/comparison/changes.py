@@ -21,7 +21,7 @@ from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
-from armscope.comparison.noisier import noisier
+from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import Change, Comparison, Kind, Left, Valued
 from armscope.comparison.search import likeliest_changes
@@ -58,6 +58,10 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     everything = model.possible_changes(_masks(families, of_arms))
     tried, names = len(everything), tuple(recordings)
     taken, changes = _named(model, everything, names, of_arms)
+    noisy = noisier(names, families, model.left_over(taken), model.dispersion)
+    if taken and (along := along_joints(noisy)) > 1:
+        model.dispersion *= along
+        taken, changes = _named(model, everything, names, of_arms)
     joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     return Comparison(
         arm=arm.name,
@@ -72,7 +76,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         seen=seen(model, everything, taken),
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
-        noisier=noisier(names, families, model.left_over(taken), model.dispersion),
+        noisier=noisy,
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
 

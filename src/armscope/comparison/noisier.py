@@ -125,6 +125,15 @@ def noisier(
     return tuple(sorted(found, key=lambda each: -each.left_mm / each.usual_mm))
 
 
+def along_joints(found: Sequence[Noisier]) -> float:
+    """How much larger the variance of what is left may be along a joint's turning than per axis, as changes take it.
+
+    A joint that stands elsewhere each time moves the tool along one direction. All that is more than usual lies along
+    it, and not a third: what looks like a change of that joint, or of one beside it, is that much less sure.
+    """
+    return max([1.0, *(3 - 2 * (each.usual_mm / each.left_mm) ** 2 for each in found if each.scatter)])
+
+
 def by_chance(one: LeftOver, other: LeftOver, dispersion: float) -> float:
     """How often noise of one size leaves as much more of one recording than of another.
 
