@@ -25,6 +25,34 @@ def test_euler_angles_turn_about_moving_or_fixed_axes_as_declared(tmp_path):
         np.testing.assert_allclose(Rotation.from_quat([x, y, z, w]).as_matrix(), expected, atol=1e-9)
 
 
+@pytest.mark.parametrize(("unit", "size"), [("rad", 1.0), ("deg", 180 / np.pi)])
+def test_a_rotation_vector_is_the_axis_times_the_angle(tmp_path, unit, size):
+    """Rodrigues' formula, written out; Universal Robots' controllers write rx, ry, rz so."""
+    vector = np.array([-1.502279, 1.602762, -2.063273])
+    angle = np.linalg.norm(vector)
+    x, y, z = vector / angle
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    expected = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    raw = "j1,j2,x,y,z,a,b,c\n0,0,1,2,3," + ",".join(map(repr, (vector * size).tolist())) + "\n"
+    mapping = with_columns(orientation={"rotation_vector": ["a", "b", "c"], "unit": unit})
+    _, table = convert(tmp_path, raw, mapping)
+    w, x, y, z = table[["qw", "qx", "qy", "qz"]].to_numpy()[0]
+    np.testing.assert_allclose(Rotation.from_quat([x, y, z, w]).as_matrix(), expected, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "orientation",
+    [
+        {"rotation_vector": ["a", "b", "c"]},
+        {"rotation_vector": ["a", "b", "c"], "unit": "rad", "sequence": "XYZ"},
+        {"rotation_vector": ["a", "b", "c"], "euler": ["a", "b", "c"], "unit": "rad", "sequence": "XYZ"},
+    ],
+)
+def test_a_rotation_vector_has_a_unit_and_nothing_else(tmp_path, orientation):
+    with pytest.raises(InputError, match=r"unit|one of the four"):
+        convert(tmp_path, "j1,j2,x,y,z,a,b,c\n0,0,1,2,3,0,0,1\n", with_columns(orientation=orientation))
+
+
 POSE = {
     "columns": {
         "angles": {"columns": ["j1", "j2"], "unit": "rad"},

@@ -38,6 +38,11 @@ def from_euler(angles: Array, sequence: str) -> Array:
     return _quaternions(angles, lambda known: Rotation.from_euler(sequence, known))
 
 
+def from_rotation_vectors(vectors: Array) -> Array:
+    """(N, 3) the axis times the angle, rad, to (N, 4) wxyz."""
+    return _quaternions(vectors, Rotation.from_rotvec)
+
+
 def from_matrices(values: Array) -> Array:
     """(N, 3, 3) to (N, 4) wxyz.
 

@@ -42,6 +42,9 @@ SETTLE_SCATTER = (
     "Settle first why {} scatters (below): play whose side was not recorded goes with the angle, too. Until then "
     "change nothing here."
 )
+AFTER_REPAIRS = "Diagnose again after the repairs above: this is for what they leave."
+ON_OTHERS = "Predict other poses (armscope predict) and measure a few of them."
+"""In its place where there is nothing to repair first."""
 DOES_NOTHING = "by itself it changes nothing: payload data act only where what gives way is corrected, by {}"
 """In place of what a payload's correction alone would leave."""
 
@@ -141,6 +144,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     jobs_in_turn = [(task, moved[id(task)]) for task, _ in (*first, *then, *last, *smaller)]
     done = _in_turn(calibrated_last(jobs_in_turn), worth.before)
     done = [_after_what_it_needs(beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
+    done[:1] = [replace(task, confirm=task.confirm.replace(AFTER_REPAIRS, ON_OTHERS)) for task in done[:1]]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
         names = [uncapitalised(what) for what in moving]
@@ -282,6 +286,6 @@ def _everywhere(family: str, worst: str) -> Task:
         motion="",
         instruction=cure_of_family(family, (), True, worst).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
         cure="",
-        confirm="Diagnose again after the repairs above: this is for what they leave.",
+        confirm=AFTER_REPAIRS,
         family=family,
     )

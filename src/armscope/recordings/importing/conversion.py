@@ -16,7 +16,13 @@ from armscope.recordings.importing.constants import DRAFT
 from armscope.recordings.importing.formats import Column, Time
 from armscope.recordings.importing.mapping import Columns, Label, Orientation, Reflectors, RunColumn
 from armscope.recordings.importing.pieces import Piece
-from armscope.recordings.orientations import NotARotation, from_euler, from_matrices, from_quaternions
+from armscope.recordings.orientations import (
+    NotARotation,
+    from_euler,
+    from_matrices,
+    from_quaternions,
+    from_rotation_vectors,
+)
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 
@@ -177,16 +183,15 @@ class Converter:
             order = group.order
             values = whole(piece, group.quaternion, "an orientation")
             return self._rotation(piece, group.quaternion, lambda: from_quaternions(values, order))
-        if group.euler is not None:
+        if (columns := group.euler or group.rotation_vector) is not None:
             assert group.unit is not None
-            assert group.sequence is not None
-            angles = whole(piece, group.euler, "an orientation")
+            angles = whole(piece, columns, "an orientation")
             cure = "Are these degrees? Then say unit: deg." if group.unit == "rad" else ""
             far = np.abs(angles * UNITS[group.unit]) > POSSIBLE.angle_rad
-            refuse_values(
-                piece, group.euler, angles, far, f"an Euler angle in {group.unit} lies within two turns", cure
-            )
-            return from_euler(angles * UNITS[group.unit], group.sequence)
+            what = "an Euler angle" if group.euler is not None else "a part of a rotation vector"
+            refuse_values(piece, columns, angles, far, f"{what} in {group.unit} lies within two turns", cure)
+            turned = angles * UNITS[group.unit]
+            return from_rotation_vectors(turned) if group.sequence is None else from_euler(turned, group.sequence)
         assert group.matrix is not None
         matrices = whole(piece, group.matrix, "an orientation").reshape(-1, 3, 3)
         return self._rotation(piece, group.matrix, lambda: from_matrices(matrices))

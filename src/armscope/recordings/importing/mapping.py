@@ -43,31 +43,40 @@ class Reflectors(Strict):
 
 
 class Orientation(Strict):
-    """Measurement frame from tool frame, by one of three ways.
+    """Measurement frame from tool frame, by one of four ways.
 
     ``quaternion`` with its ``order``; or ``euler``, three angles about the axes that ``sequence`` names: capitals (XYZ)
     turn about the moving axes one after the other (intrinsic), small letters (xyz) about the fixed axes (extrinsic);
-    or ``matrix``, nine numbers row by row.
+    or ``rotation_vector``, the axis times the angle (as Universal Robots' controllers write it); or ``matrix``, nine
+    numbers row by row.
     """
 
     quaternion: tuple[Column, Column, Column, Column] | None = None
     order: Literal["wxyz", "xyzw"] | None = None
     euler: tuple[Column, Column, Column] | None = None
     sequence: str | None = None
+    rotation_vector: tuple[Column, Column, Column] | None = None
     unit: AngleUnit | None = None
     matrix: Annotated[tuple[Column, ...], Field(min_length=9, max_length=9)] | None = None
 
     @pydantic.model_validator(mode="after")
     def _one_way(self) -> Self:
-        if sum(way is not None for way in (self.quaternion, self.euler, self.matrix)) != 1:
-            raise ValueError("an orientation is a `quaternion`, `euler` angles or a `matrix`: one of the three")
+        if sum(way is not None for way in (self.quaternion, self.euler, self.rotation_vector, self.matrix)) != 1:
+            ways = "a `quaternion`, `euler` angles, a `rotation_vector` or a `matrix`"
+            raise ValueError(f"an orientation is {ways}: one of the four")
         if (self.quaternion is not None) != (self.order is not None):
             raise ValueError("`order` (wxyz or xyzw) belongs to a `quaternion`, and a `quaternion` needs it")
-        if (self.euler is not None) != (self.sequence is not None and self.unit is not None):
-            raise ValueError("`sequence` and `unit` belong to `euler` angles, and these need both")
+        by_angles = self.euler is not None or self.rotation_vector is not None
+        if (self.euler is not None) != (self.sequence is not None) or by_angles != (self.unit is not None):
+            raise ValueError("`sequence` and `unit` belong to `euler` angles, which need both; a vector needs a `unit`")
         if self.sequence is not None and not re.fullmatch(r"(?!.*(.)\1)([xyz]{3}|[XYZ]{3})", self.sequence):
             raise ValueError("`sequence` is three axes such as XYZ (about moving axes) or xyz (about fixed axes)")
         return self
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Those that it is in."""
+        return self.quaternion or self.euler or self.rotation_vector or self.matrix or ()
 
 
 class Pose(Strict):
@@ -177,7 +186,7 @@ class Columns(Groups):
         found += self.pose.matrix if self.pose is not None else ()
         found += [column for point in self.reflectors.targets.values() for column in point] if self.reflectors else ()
         turned = self.orientation
-        return [*found, *((turned.quaternion or turned.euler or turned.matrix or ()) if turned is not None else ())]
+        return [*found, *(turned.columns if turned is not None else ())]
 
     def check_beside(self, known: set[str], of_run: str) -> None:
         """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files.
