@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.comparison import compare
 from armscope.comparison.own_errors import OwnErrors, learned, no_own_errors
-from armscope.comparison.penalised import Beside
+from armscope.comparison.penalised import HeldColumns
 from armscope.recordings import as_recordings
 from armscope.robot import chain, load_arm
 
@@ -34,21 +34,21 @@ def of_an_arm(seed, zeros=()):
     return as_recordings(pd.DataFrame(columns), "made", 6)
 
 
-def drawn(size: float, outlier: float = 0.0) -> tuple[OwnErrors, np.ndarray, Beside]:
+def drawn(size: float, outlier: float = 0.0) -> tuple[OwnErrors, np.ndarray, HeldColumns]:
     """300 rows by 40 errors of a size, of which the first is an outlier."""
     rng = np.random.default_rng(2)
     columns = rng.normal(size=(300, 40))
     values = rng.normal(0, size, 40)
     values[0] += outlier
     own = OwnErrors(columns, np.zeros(40, int), np.repeat([0, 1], 20), np.ones(1), np.ones(1))
-    return own, columns @ values + rng.normal(0, 0.1, 300), Beside(columns, np.full(40, 0.01), drawn=40)
+    return own, columns @ values + rng.normal(0, 0.1, 300), HeldColumns(columns, np.full(40, 0.01), drawn=40)
 
 
 @pytest.mark.parametrize(("size", "of_most"), [(0.3, False), (0.03, False), (0.3, True)])
 def test_the_size_that_is_learned_is_that_of_the_errors(size, of_most) -> None:
     own, rows, base = drawn(size)
     for _ in range(8):
-        own = learned(own, rows, Beside(own.sized, base.penalty, base.drawn), of_most)
+        own = learned(own, rows, HeldColumns(own.sized, base.penalty, base.drawn), of_most)
     assert own.size[0] == pytest.approx(size, rel=0.35)
     assert 20 < own.numbers[0] <= 40
 
@@ -58,7 +58,7 @@ def test_one_that_stands_out_does_not_count_where_most_do() -> None:
     for of_most in (False, True):
         own, rows, base = drawn(0.3, outlier=10.0)
         for _ in range(8):
-            own = learned(own, rows, Beside(own.sized, base.penalty, base.drawn), of_most)
+            own = learned(own, rows, HeldColumns(own.sized, base.penalty, base.drawn), of_most)
         sizes[of_most] = own.size[0]
     assert sizes[True] < 0.5 < 1 < sizes[False]
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from armscope.comparison.penalised import Beside, held_values, left_of_groups, variance_left
+from armscope.comparison.penalised import HeldColumns, held_values, left_of_groups, variance_left
 
 
-def fitted_by(penalty: float) -> tuple[np.ndarray, Beside]:
+def fitted_by(penalty: float) -> tuple[np.ndarray, HeldColumns]:
     rng = np.random.default_rng(3)
     columns = rng.normal(size=(40, 5))
-    return columns @ np.arange(5.0) + rng.normal(0, 0.1, 40), Beside(columns, np.full(5, penalty))
+    return columns @ np.arange(5.0) + rng.normal(0, 0.1, 40), HeldColumns(columns, np.full(5, penalty))
 
 
 def test_without_a_penalty_it_is_least_squares() -> None:
@@ -40,7 +40,7 @@ def test_what_is_drawn_is_noise_of_another_shape() -> None:
     """Of 2000 tables whose values are drawn with the variance that the penalty says, the variance left is the noise's;
     to count these values as numbers that are taken up would make it larger by 40 / 25."""
     rng = np.random.default_rng(8)
-    base = Beside(rng.normal(size=(40, 20)), np.full(20, 0.25), drawn=20)
+    base = HeldColumns(rng.normal(size=(40, 20)), np.full(20, 0.25), drawn=20)
     tables = base.columns @ rng.normal(0, 2, (20, 2000)) + rng.normal(0, 1, (40, 2000))
     found = [variance_left(rows, base) for rows in tables.T]
     assert np.mean([variance for variance, _ in found]) == pytest.approx(1, abs=0.02)
@@ -55,7 +55,7 @@ def test_other_penalties_on_the_same_columns() -> None:
 
 def test_what_is_fixed_is_what_is_not_drawn() -> None:
     _, base = fitted_by(3.0)
-    some = Beside(base.columns, base.penalty, drawn=2)
+    some = HeldColumns(base.columns, base.penalty, drawn=2)
     np.testing.assert_array_equal(some.fixed.columns, base.columns[:, 2:])
     assert base.fixed is base
     across = base.columns @ np.linalg.solve(base.gram + np.diag(base.penalty), base.columns.T)

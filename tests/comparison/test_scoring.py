@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.comparison.penalised import Beside
+from armscope.comparison.penalised import HeldColumns
 from armscope.comparison.scoring import scored
 
 RNG = np.random.default_rng(12)
@@ -16,7 +16,7 @@ def left_by(columns: np.ndarray) -> float:
 
 
 def test_it_is_the_f_of_two_nested_fits() -> None:
-    base = Beside(COLUMNS, np.full(4, 1e-12))
+    base = HeldColumns(COLUMNS, np.full(4, 1e-12))
     (found,) = scored([CHANGE], ROWS, base, 1.0)
     without, with_it = left_by(COLUMNS), left_by(np.hstack([COLUMNS, CHANGE]))
     assert found.statistic.f == pytest.approx((without - with_it) / 2 / (with_it / (60 - 4 - 2)))
@@ -24,7 +24,7 @@ def test_it_is_the_f_of_two_nested_fits() -> None:
 
 
 def test_each_is_as_sure_alone_as_among_others() -> None:
-    base = Beside(COLUMNS, np.full(4, 1e-12))
+    base = HeldColumns(COLUMNS, np.full(4, 1e-12))
     together = scored([CHANGE, CHANGE[:, :1]], ROWS, base, 1.3)
     alone = [scored([each], ROWS, base, 1.3)[0] for each in (CHANGE, CHANGE[:, :1])]
     assert [each.p for each in together] == pytest.approx([each.p for each in alone])
@@ -32,7 +32,7 @@ def test_each_is_as_sure_alone_as_among_others() -> None:
 
 
 def test_what_stands_in_the_base_is_not_seen() -> None:
-    base = Beside(COLUMNS, np.full(4, 1e-12))
+    base = HeldColumns(COLUMNS, np.full(4, 1e-12))
     (found,) = scored([COLUMNS[:, :1]], ROWS, base, 1.0)
     assert found.statistic.q == 0
     assert found.p == 1
@@ -40,7 +40,7 @@ def test_what_stands_in_the_base_is_not_seen() -> None:
 
 def test_what_arms_have_a_little_of_is_seen_and_less_sure() -> None:
     """The same column drawn with a standard deviation of 0.1: then 0.4 is four of these, and not some three of 0.13."""
-    usual = Beside(np.hstack([CHANGE[:, :1], COLUMNS]), np.array([1 / 0.1**2, *np.full(4, 1e-12)]), drawn=1)
+    usual = HeldColumns(np.hstack([CHANGE[:, :1], COLUMNS]), np.array([1 / 0.1**2, *np.full(4, 1e-12)]), drawn=1)
     (found,) = scored([CHANGE[:, :1]], ROWS, usual, 1.0)
     (sure,) = scored([CHANGE[:, :1]], ROWS, usual.fixed, 1.0)
     assert found.statistic.q == sure.statistic.q == 1

@@ -17,6 +17,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 
+MIRRORED = "left-handed frame"
+"""Kind of what makes the points a mirror image of the arm's."""
 PARALLELOGRAM = ("base", "upper arm", "forearm")
 """What the motors up to that of a parallelogram turn."""
 
@@ -48,7 +50,7 @@ def trials(arm: Arm) -> Iterator[Trial]:
     yield from _joints(arm.n_motors)
     yield from _several_signs(arm.n_motors)
     yield Trial(
-        "left-handed frame",
+        MIRRORED,
         "the measurement frame is left-handed: the points are a mirror image of the arm's",
         "Flip the sign of one axis, or exchange two, where the points come from (in mapping.yaml: two of `position`).",
         _changed("positions", partial(np.multiply, [1.0, 1.0, -1.0])),

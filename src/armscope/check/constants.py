@@ -32,9 +32,7 @@ class TrialRules(Constants):
         1, "of them after which most trials end", "measured: 400 tables, told as by all steps", unit="steps"
     )
     refined: int = constant(8, "trials that go on in any case", "judgement: some mistakes look alike", unit="trials")
-    signed_joints: int = constant(
-        7, "up to which signs of several joints are tried", "judgement: time; 126 trials", unit="joints"
-    )
+    signed_joints: int = constant(7, "up to which signs of several are tried", "judgement: time", unit="joints")
     far: float = constant(
         0.25, "share left after the first steps up to which all go on", "judgement: five times what fits leaves"
     )

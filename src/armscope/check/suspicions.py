@@ -15,7 +15,7 @@ from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
 from armscope.check.approach import leading_joints
-from armscope.check.common_mistakes import Trial, trials
+from armscope.check.common_mistakes import MIRRORED, Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
 from armscope.check.nominal_arms import better_arm
@@ -202,7 +202,9 @@ def _best_trial(arm: Arm, table: Recordings, where: str) -> Suspicion:
     if least < min(TRIALS.fits, TRIALS.clearly_better * share):
         best, *others = [trial for left, trial in tried if left <= TRIALS.as_good * least]
         alternatives = " ".join(f"Or {other.statement}: the points can't tell." for other in others)
-        return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip(), best.kind)
+        # what mirrors an arm is told by its signs first, since instruments are right-handed
+        kind = MIRRORED if any(other.kind == MIRRORED for other in others) else best.kind
+        return Suspicion("problem", best.statement + where, f"{best.cure} {alternatives}".strip(), kind)
     of_points = _spread(table)
     if of_points < TRIALS.point * spread:
         statement = f"the points{where} lie within {1e3 * of_points:.2g} mm, though the arm's lie within"

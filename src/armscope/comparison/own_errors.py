@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtri
 
 from armscope.comparison.constants import SHARED
-from armscope.comparison.penalised import Beside
+from armscope.comparison.penalised import HeldColumns
 from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
 from armscope.fitting.transfer import belongs_to_the_arm
@@ -99,7 +99,7 @@ def own_errors(model: FittedModel, table: Recordings, arm_of_row: Indices) -> Ow
     return OwnErrors(each_alone[:, seen], families, names, np.ones(len(kinds)), np.ones(len(kinds)))
 
 
-def learned(own: OwnErrors, rows: Array, base: Beside, of_most: bool = False) -> OwnErrors:
+def learned(own: OwnErrors, rows: Array, base: HeldColumns, of_most: bool = False) -> OwnErrors:
     """One step towards the sizes under which the rows are likeliest (MacKay 1992).
 
     Args:

@@ -13,7 +13,7 @@ from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
+class HeldColumns:
     """Columns by which rows are fitted, with a penalty on each.
 
     Attributes:
@@ -43,16 +43,16 @@ class Beside:
         """(p, n) what is fitted of rows is its transpose times it times them."""
         return self.inverse @ self.columns.T
 
-    def held(self, penalty: Array) -> Beside:
+    def held(self, penalty: Array) -> HeldColumns:
         """The same columns with other penalties (p,)."""
-        other = Beside(self.columns, penalty, self.drawn)
+        other = HeldColumns(self.columns, penalty, self.drawn)
         other.__dict__["gram"] = self.gram  # the dearest part, and the same
         return other
 
     @functools.cached_property
-    def fixed(self) -> Beside:
+    def fixed(self) -> HeldColumns:
         """Without what is drawn."""
-        return Beside(self.columns[:, self.drawn :], self.penalty[self.drawn :]) if self.drawn else self
+        return HeldColumns(self.columns[:, self.drawn :], self.penalty[self.drawn :]) if self.drawn else self
 
     def information(self, columns: Array) -> Array:
         """(q, q) what rows tell of columns (n, q) that are free beside these, in units of one over their variance."""
@@ -60,13 +60,13 @@ class Beside:
         return np.asarray(columns.T @ columns - across.T @ across)
 
 
-def held_values(rows: Array, base: Beside) -> Array:
+def held_values(rows: Array, base: HeldColumns) -> Array:
     """(p,) the value of each column, by least squares on rows (n,)."""
     stacked = np.vstack([base.columns, np.diag(np.sqrt(base.penalty))])
     return np.asarray(np.linalg.lstsq(stacked, np.concatenate([rows, np.zeros(len(base.penalty))]))[0])
 
 
-def variance_left(rows: Array, base: Beside) -> tuple[float, float]:
+def variance_left(rows: Array, base: HeldColumns) -> tuple[float, float]:
     """How much is left of all rows (n,) together.
 
     Returns:
@@ -79,7 +79,7 @@ def variance_left(rows: Array, base: Beside) -> tuple[float, float]:
     return float((left @ left + values**2 @ base.penalty) / free), free
 
 
-def left_of_groups(rows: Array, base: Beside, group: Indices) -> tuple[Array, Array]:
+def left_of_groups(rows: Array, base: HeldColumns, group: Indices) -> tuple[Array, Array]:
     """What is left of rows, and how many numbers of each group of them are free.
 
     Args:

@@ -99,8 +99,7 @@ class Change:
     @property
     def title_with_doubt(self) -> str:
         """The title, and that it is one of several: what these recordings don't tell apart is no finding."""
-        others = len(self.alternatives)
-        if others > COMPARING.many_alike:
+        if (others := len(self.alternatives)) > COMPARING.many_alike:
             return f"something that these recordings do not tell ({self.title} or one of {others} others)"
         doubt = f" (or one of {others} others that explain it as well)" if others > 1 else " (or another)" * others
         return f"{self.title}{doubt}"

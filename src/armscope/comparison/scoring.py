@@ -9,12 +9,12 @@ import numpy as np
 
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Scored, Statistic
-from armscope.comparison.penalised import Beside, variance_left
+from armscope.comparison.penalised import HeldColumns, variance_left
 from armscope.core.types import Array, Indices
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class KnownSizes:
     """How well the sizes are known of what is drawn: (c,) the family of each, and (families,) from how many numbers."""
 
     family: Indices
@@ -22,7 +22,7 @@ class Drawn:
 
 
 def scored(
-    changes: Sequence[Array], rows: Array, base: Beside, dispersion: float, drawn: Drawn | None = None
+    changes: Sequence[Array], rows: Array, base: HeldColumns, dispersion: float, drawn: KnownSizes | None = None
 ) -> list[Scored]:
     """The F statistic of each change, how likely chance makes it, and by how much it makes the rows the likelier.
 
@@ -53,7 +53,7 @@ def scored(
     return found
 
 
-def _known_from(base: Beside, beyond: Array, free: float, drawn: Drawn | None) -> Array:
+def _known_from(base: HeldColumns, beyond: Array, free: float, drawn: KnownSizes | None) -> Array:
     """(q,) from how many numbers it is known how large each may be by chance: by noise, and by what is drawn.
 
     Of a sum of variances, each known from numbers of its own (Satterthwaite 1946).

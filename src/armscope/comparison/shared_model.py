@@ -13,8 +13,8 @@ from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, 
 from armscope.comparison.flange_load import load_at_the_flange
 from armscope.comparison.noisier import LeftOver
 from armscope.comparison.own_errors import learned, no_own_errors, own_errors
-from armscope.comparison.penalised import Beside, held_values, left_of_groups, variance_left
-from armscope.comparison.scoring import Drawn, scored
+from armscope.comparison.penalised import HeldColumns, held_values, left_of_groups, variance_left
+from armscope.comparison.scoring import KnownSizes, scored
 from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
 from armscope.fitting.joint_scatter import motor_jacobians
@@ -195,7 +195,7 @@ class SharedModel:
         base = self.base(taken)
         variance, _ = self.left(base)
         columns = [self._seen_columns(each, variance) for each in possible]
-        drawn = Drawn(self.own.family, self.own.numbers) if base.drawn else None
+        drawn = KnownSizes(self.own.family, self.own.numbers) if base.drawn else None
         return scored(columns, self.residual, base, self.dispersion, drawn)
 
     def _seen_columns(self, possible: Possible, variance: float) -> Array:
@@ -209,13 +209,13 @@ class SharedModel:
 
     def left_mm(self, taken: Sequence[Possible]) -> list[Array]:
         """What frames leave, what is shared beside them, and changes, too: three of (sets,) RMS per axis, mm."""
-        frames = Beside(self.frames, np.zeros(self.frames.shape[1]))
+        frames = HeldColumns(self.frames, np.zeros(self.frames.shape[1]))
         return [
             np.sqrt(np.bincount(self.group, self._left_over(base) ** 2) / np.bincount(self.group))
             for base in (frames, self.base(()), self.base(taken))
         ]
 
-    def _left_over(self, base: Beside) -> Array:
+    def _left_over(self, base: HeldColumns) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
         return np.asarray((self.residual - base.columns @ held_values(self.residual, base)) / self.weight)
 
@@ -238,7 +238,7 @@ class SharedModel:
         scale = np.tile(self._of(self.scale, number), count)
         scale = np.where(scale > 0, scale, 1.0)
         held = np.concatenate([base.penalty, self._noise / (SHARED.widened * scale) ** 2])
-        whole = Beside(np.hstack([base.columns, own]), held, base.drawn)
+        whole = HeldColumns(np.hstack([base.columns, own]), held, base.drawn)
         inverse = np.linalg.inv(whole.gram + np.diag(held))
         values = (inverse @ (whole.columns.T @ self.residual))[-own.shape[1] :]
         variance, free = self.left(whole)
@@ -261,7 +261,7 @@ class SharedModel:
         taken: Sequence[Possible],
         kept: NDArray[np.bool_] | None = None,
         own: NDArray[np.bool_] | None = None,
-    ) -> Beside:
+    ) -> HeldColumns:
         """All that a change stands beside: errors of each arm's own, frames, changes that were taken, what is shared.
 
         Args:
@@ -280,9 +280,9 @@ class SharedModel:
         penalty = np.full(drawn.shape[1] + free.shape[1] + shared.shape[1], self._noise)
         # a wrist that was held leaves part of its tool to the base
         penalty[drawn.shape[1] : drawn.shape[1] + free.shape[1]] = SHARED.held
-        return Beside(np.hstack([drawn, free, shared]), penalty, drawn.shape[1])
+        return HeldColumns(np.hstack([drawn, free, shared]), penalty, drawn.shape[1])
 
-    def left(self, base: Beside) -> tuple[float, float]:
+    def left(self, base: HeldColumns) -> tuple[float, float]:
         """Variance per number, and how many numbers are free, beside columns with penalties."""
         return variance_left(self.residual, base)
 
