@@ -1,5 +1,6 @@
 """A table whose every row has a target of its own is told as that, by whatever looks at it."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from armscope.check.report import check
 from armscope.compensation.fitting import fit_error_model
 from armscope.core.inputs import InputError
 from armscope.errormodels.features import FDP_CI
+from tests.calibration.worlds import far_away, measured, poses
 
 TOLD = "column target: 80 different names in 80 rows"
 
@@ -32,3 +34,34 @@ def test_a_diagnosis_and_an_error_model_refuse_them(numbered, arm):
         refuse_unusable(arm, numbered)
     with pytest.raises(InputError, match=r"found '80 different names in 80 rows'.*is it the point's number\?"):
         fit_error_model(arm, numbered, FDP_CI)
+
+
+@pytest.mark.parametrize("apart", [(0.06, -0.04, 0.02), (0.0, 0.0, 0.3)])
+@pytest.mark.parametrize("share", [0.5, 0.35])
+def test_two_reflectors_of_one_name_are_told_with_their_distance_and_rows(arm, apart, share):
+    """As a tool that bends, a sign or another arm they sent people to look at the arm."""
+    rng = np.random.default_rng(3)
+    angles, base = poses(rng, 80, arm.n_motors), far_away(rng)
+    first, second = (
+        measured(arm, angles, base, {"": np.add([0.1, 0.02, 0.15], offset)}, noise=1e-4, rng=rng)
+        for offset in ((0, 0, 0), apart)
+    )
+    other = rng.uniform(size=80) < share
+    table = replace(first, positions=np.where(other[:, None], second.positions, first.positions))
+    (told,) = [each for each in check(table, arm).suspicions if each.weight == "problem"]
+    assert told.kind == "two reflectors"
+    found = re.search(r"two places on the tool, ([\d.]+) mm apart", told.statement)
+    assert float(found[1]) == pytest.approx(1e3 * np.linalg.norm(apart), abs=0.6)
+    fewer = np.flatnonzero(other if 2 * other.sum() <= 80 else ~other)
+    assert f": {table.id[fewer[0]]}, " in told.cure
+
+
+def test_an_arm_that_fits_badly_has_no_second_reflector(arm):
+    """A wrong sign spreads the points about the tool in no two places."""
+    rng = np.random.default_rng(4)
+    angles = poses(rng, 80, arm.n_motors)
+    table = measured(arm, angles, far_away(rng), {"": [0.1, 0.02, 0.15]}, noise=1e-4, rng=rng)
+    signs = np.where(np.arange(arm.n_motors) == arm.n_motors - 1, -1, 1)
+    said = check(replace(table, motor_angles=angles * signs), arm).suspicions
+    assert said
+    assert not [each for each in said if each.kind == "two reflectors"]

@@ -51,10 +51,10 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
         few = len(stale) <= TRIALS.most_alone * len(some)
         many = f"{len(stale)} rows hold the points" if len(stale) > 1 else "1 row holds the point"
         cure = "Had the arm not moved yet, or was a reading written twice? Leave them out, or measure them again."
-        found.append(Suspicion("hint" if few else "problem", f"{many} of the row before: {_ids(some, stale)}", cure))
+        found.append(Suspicion("hint" if few else "problem", f"{many} of the row before: {ids_of(some, stale)}", cure))
     if matched.any():
         exchanged = far[angles_of[matched]]
-        statement = f"{len(exchanged)} rows seem to have exchanged their points: {_ids(some, exchanged)}"
+        statement = f"{len(exchanged)} rows seem to have exchanged their points: {ids_of(some, exchanged)}"
         found.append(Suspicion("problem", statement, "Their points fit each other's joint angles."))
     alone = far[angles_of[~matched]]
     alone = alone[distance[alone] > TRIALS.alone * misfit]
@@ -87,14 +87,14 @@ def _told_alone(table: Recordings, alone: Indices, distance: Array) -> Suspicion
     """Rows that fit nobody's angles, the furthest first."""
     number = "1 row lies" if len(alone) == 1 else f"{len(alone)} rows lie, the furthest first,"
     off = f"up to {1e3 * distance[alone[0]]:.3g} mm" if len(alone) > 1 else f"{1e3 * distance[alone[0]]:.3g} mm"
-    statement = f"{number} {off} from where all others put the tool: {_ids(table, alone)}"
+    statement = f"{number} {off} from where all others put the tool: {ids_of(table, alone)}"
     cure = "Mistyped, or measured while the arm moved? Mend it, or leave out what can't be measured again."
     if not table.positions[alone].any():
         cure = "Their points are exactly 0, 0, 0: readings that were lost. Leave them out."
     return Suspicion("hint", statement, cure)
 
 
-def _ids(table: Recordings, rows: Indices) -> str:
+def ids_of(table: Recordings, rows: Indices) -> str:
     """Rows by run and id, ten at most."""
     names = [f"{table.run[row]}: {table.id[row]}".removeprefix(": ") for row in rows[:10]]
     return ", ".join(names) + (", ..." if len(rows) > 10 else "")

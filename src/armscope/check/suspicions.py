@@ -23,7 +23,7 @@ from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
 from armscope.check.settling import not_at_rest
 from armscope.check.suspicion import Suspicion
-from armscope.check.targets import named_row_by_row
+from armscope.check.targets import named_row_by_row, two_reflectors
 from armscope.core.averages import rms_distance
 from armscope.core.grouping import same_configuration
 from armscope.core.sampling import spread_evenly
@@ -111,6 +111,8 @@ def _placed_by_most(rows: SetUp) -> State:
 
 def _unexplained(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion]:
     """The mistake whose undoing explains the points, another arm of the library that does, or neither."""
+    if two := two_reflectors(arm, _spread_evenly(recordings), misfit):
+        return two
     mistake = explanation(arm, recordings)
     other = better_arm(arm, _spread_evenly(recordings), misfit) if mistake.kind == WRONG_ROBOT else []
     return [replace(mistake, cure=f"I{other[0].text()[1:]}", kind=ANOTHER_MODEL)] if other else [mistake]
@@ -121,6 +123,8 @@ def _doubtful(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion
 
     A joint that turns a short tool the other way leaves centimetres, as a zero some degrees off does.
     """
+    if two := two_reflectors(arm, _spread_evenly(recordings), misfit):
+        return two
     mistake = explanation(arm, recordings)
     if mistake.kind != WRONG_ROBOT:
         return [mistake]
