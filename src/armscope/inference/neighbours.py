@@ -58,20 +58,31 @@ def _out_of_backgrounds(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypoth
 
 
 def _into_background(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
-    """A family's background in place of all its names: one of them may pass for what is so everywhere.
+    """A family's background in place of all its names: one of them may pass for what is so everywhere."""
+    for number, family in enumerate(edits.space.families):
+        members = [c.candidate for c in hypothesis.chosen if edits.candidate(c.candidate).taken_up_by == family.name]
+        if family.is_priced and len(members) >= (1 if family.takes_one else 2) and len(family.columns):
+            yield from _instead(edits, hypothesis, members, number)
 
-    What has a background beside its family's (links and the base beside drives) may pass for its family's, too: one
-    link that bends is fewer numbers than all drives that give way a little, and looks like them.
+
+def into_own_family(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:
+    """The background of their own family in place of names that look like another one, and of all its own names.
+
+    One link that bends is fewer numbers than all drives that give way a little, and looks like them.
     """
     names = [c.candidate for c in hypothesis.chosen]
     for number, family in enumerate(edits.space.families):
-        members = [name for name in names if edits.candidate(name).taken_up_by == family.name]
-        beside = [name for name in names if edits.candidate(name).family == family.name and name not in members]
-        enough = beside or len(members) >= (1 if family.takes_one else 2)
-        if family.is_priced and enough and len(family.columns):
-            rest = edits.without(hypothesis, [*members, *beside])
-            for size in range(1, family.sizes):
-                yield edits.with_background(rest, number, size)
+        own = [name for name in names if edits.candidate(name).family == family.name]
+        look_like_others = [name for name in own if edits.candidate(name).taken_up_by != family.name]
+        if family.is_priced and look_like_others and len(family.columns):
+            yield from _instead(edits, hypothesis, own, number)
+
+
+def _instead(edits: Edits, hypothesis: Hypothesis, names: Sequence[int], family: int) -> Iterator[Hypothesis]:
+    """A family's background of any size in the place of some names."""
+    rest = edits.without(hypothesis, names)
+    for size in range(1, edits.space.families[family].sizes):
+        yield edits.with_background(rest, family, size)
 
 
 def _exchanges(edits: Edits, hypothesis: Hypothesis) -> Iterator[Hypothesis]:

@@ -14,7 +14,7 @@ from armscope.inference.constants import BUDGET
 from armscope.inference.edits import Edits, by_posterior
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import BackgroundSizes
-from armscope.inference.neighbours import neighbours
+from armscope.inference.neighbours import into_own_family, neighbours
 from armscope.inference.problem import Problem
 
 
@@ -60,7 +60,12 @@ class Search(Edits):
         ends = _distinct(ends)
         if not local:
             return ends[0]
-        return max((self._local_search(end) for end in ends[: BUDGET.locally_searched]), key=by_posterior)
+        best = max((self._local_search(end) for end in ends[: BUDGET.locally_searched]), key=by_posterior)
+        # from where it ends: on the way there, a background that stands for some names hides what else does
+        other = max(into_own_family(self, best), key=by_posterior, default=best)
+        if other is best or other.log_posterior < best.log_posterior - BUDGET.slack_nats:
+            return best
+        return max(best, self._local_search(other), key=by_posterior)
 
     def empty(self) -> Hypothesis:
         """The best hypothesis without any named effect."""
