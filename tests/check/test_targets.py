@@ -56,6 +56,21 @@ def test_two_reflectors_of_one_name_are_told_with_their_distance_and_rows(arm, a
     assert f": {table.id[fewer[0]]}, " in told.cure
 
 
+def test_another_place_from_a_row_on_may_be_a_tool_that_moved(arm):
+    """A diagnosis tells that with the row: it must not be refused."""
+    rng = np.random.default_rng(3)
+    angles, base = poses(rng, 80, arm.n_motors), far_away(rng)
+    first, second = (
+        measured(arm, angles, base, {"": [0.1 + offset, 0.02, 0.15]}, noise=1e-4, rng=rng) for offset in (0, 0.09)
+    )
+    later = np.arange(80) >= 41
+    table = replace(first, positions=np.where(later[:, None], second.positions, first.positions))
+    (told,) = [each for each in check(table, arm).suspicions if each.kind == "two reflectors"]
+    assert told.weight == "hint"
+    assert "Or did the tool move then?" in told.cure
+    assert not [each for each in check(table, arm).suspicions if each.weight == "problem"]
+
+
 def test_an_arm_that_fits_badly_has_no_second_reflector(arm):
     """A wrong sign spreads the points about the tool in no two places."""
     rng = np.random.default_rng(4)

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,7 @@ from armscope.report.pages.diagnosis import write_work_order
 from armscope.report.sections import cures, effects
 from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
+from armscope.verdict.doubts import OPEN
 from armscope.verdict.effects import Parameter
 from armscope.verdict.entered_together import CALIBRATED_LAST, CALIBRATION, calibrated_last, pays_together
 from armscope.verdict.tasks import Task
@@ -100,6 +102,21 @@ def test_what_pays_only_after_a_calibration_is_done_before_it_is_measured_for() 
     assert task.instruction.startswith(CALIBRATED_LAST)
     assert "joint_compliance at joint 2" in task.members
     assert not task.only_after
+
+
+@pytest.mark.parametrize(
+    "more", [{"change": OPEN}, {"requires": "elastic"}, {"beside_scatter": True, "unless": "Settle first."}]
+)
+def test_what_cannot_be_done_before_a_calibration_keeps_its_own_step(more: dict[str, Any]) -> None:
+    """Told to do it first and to leave it until something is settled, one does either."""
+    calibration = Task("A", "whole arm", CALIBRATION, "", "Do it.", "", "")
+    wave = replace(Task("B", "joint 4", "gear", "", "Do it.", "", "", members=("b at joint 4",)), **more)
+    jobs = [(task, np.zeros((2, 3))) for task in (calibration, wave)]
+    assert calibrated_last(jobs) == jobs
+    assert (
+        len(calibrated_last([jobs[0], (replace(wave, change="gear", requires="", beside_scatter=False), jobs[1][1])]))
+        == 1
+    )
 
 
 def test_what_is_done_before_a_calibration_stays_a_step_of_its_own() -> None:

@@ -18,6 +18,9 @@ from armscope.core.types import Array
 from armscope.recordings import Recordings, numbered_points
 from armscope.robot import Arm
 
+TWO_REFLECTORS = "two reflectors"
+"""Kind of a suspicion that points of one target are of two."""
+
 
 def named_row_by_row(recordings: Recordings) -> list[Suspicion]:
     """Whether column target has nearly as many names as the table has rows: then it numbers points."""
@@ -62,10 +65,11 @@ def two_reflectors(arm: Arm, table: Recordings, misfit: float) -> list[Suspicion
     apart = float(np.linalg.norm(on_tool[second].mean(axis=0) - on_tool[~second].mean(axis=0)))
     statement = f"the points sit at two places on the tool, {1e3 * apart:.3g} mm apart: {1e3 * left:.3g} mm are left so"
     fewer = second if 2 * second.sum() <= len(second) else ~second
-    cure = (
-        f"Were these two reflectors? Name them in column target; one of them in {ids_of(table, np.flatnonzero(fewer))}."
-    )
-    return [Suspicion("problem", statement, cure, "two reflectors")]
+    one = ids_of(table, np.flatnonzero(fewer))
+    cure = f"Were these two reflectors? Name them in column target; one of them in {one}."
+    if np.count_nonzero(np.diff(second.astype(int))) == 1:  # from a row on: a diagnosis asks that of the tool
+        return [Suspicion("hint", statement, f"{cure} Or did the tool move then?", TWO_REFLECTORS)]
+    return [Suspicion("problem", statement, cure, TWO_REFLECTORS)]
 
 
 def _on_the_tool(rows: SetUp, state: State) -> Array:

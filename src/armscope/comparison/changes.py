@@ -58,10 +58,12 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
     everything = model.possible_changes(_masks(families, of_arms))
     tried, names = len(everything), tuple(recordings)
     taken, changes = _named(model, everything, names, of_arms)
-    noisy = noisier(names, families, model.left_over(taken), model.dispersion)
+    between_rows = model.dispersion
+    noisy = noisier(names, families, model.left_over(taken), between_rows)
     if taken and (along := along_joints(noisy)) > 1:
         model.dispersion *= along
         taken, changes = _named(model, everything, names, of_arms)
+        noisy = noisier(names, families, model.left_over(taken), between_rows)
     joint = min([1.0, *(score.p * tried for score in model.scores(everything, ()))])
     return Comparison(
         arm=arm.name,

@@ -113,7 +113,9 @@ class SharedModelRules(Constants):
         unit="rounds",
     )
     least_size: float = constant(
-        0.1, "by which errors of each arm's own become smaller in a round, at most", "derived: so that none is nothing"
+        0.1,
+        "by which errors of each arm's own become smaller in a round, at most",
+        "judgement: none goes at once",
     )
     least_variance: float = constant(
         1e-12, "of the noise", "derived: far below any instrument's; exact rows would have none", unit="mm2"

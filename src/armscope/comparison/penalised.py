@@ -54,10 +54,13 @@ class HeldColumns:
         """Without what is drawn."""
         return HeldColumns(self.columns[:, self.drawn :], self.penalty[self.drawn :]) if self.drawn else self
 
+    def beyond(self, columns: Array) -> Array:
+        """(n, q) what of columns (n, q) these do not fit."""
+        return np.asarray(columns - self.half.T @ (self.half @ columns))
+
     def information(self, columns: Array) -> Array:
         """(q, q) what rows tell of columns (n, q) that are free beside these, in units of one over their variance."""
-        across = self.half @ columns
-        return np.asarray(columns.T @ columns - across.T @ across)
+        return np.asarray(columns.T @ self.beyond(columns))
 
 
 def held_values(rows: Array, base: HeldColumns) -> Array:

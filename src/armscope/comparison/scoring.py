@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Scored, Statistic
+from armscope.comparison.own_errors import OwnErrors
 from armscope.comparison.penalised import HeldColumns, variance_left
-from armscope.core.types import Array, Indices
+from armscope.core.types import Array
 
 
-@dataclass(frozen=True, eq=False)
-class KnownSizes:
-    """How well the sizes are known of what is drawn: (c,) the family of each, and (families,) from how many numbers."""
-
-    family: Indices
-    numbers: Array
-
-
-def scored(
-    changes: Sequence[Array], rows: Array, base: HeldColumns, dispersion: float, drawn: KnownSizes | None = None
-) -> list[Scored]:
+def scored(changes: Sequence[Array], rows: Array, base: HeldColumns, dispersion: float, own: OwnErrors) -> list[Scored]:
     """The F statistic of each change, how likely chance makes it, and by how much it makes the rows the likelier.
 
     Args:
@@ -31,7 +21,7 @@ def scored(
         rows: (n,) what is fitted.
         base: what each stands beside.
         dispersion: by which all are less sure than they seem.
-        drawn: how well the sizes are known of what is drawn in the base; None where nothing is.
+        own: errors of each arm's own, which are what is drawn in the base.
 
     Returns:
         One for each; of one that cannot be seen beside the base, none of its numbers.
@@ -39,9 +29,9 @@ def scored(
     variance, free = variance_left(rows, base)
     # all at once: thin products one by one would read what they stand beside again and again
     together = np.hstack([np.empty((len(rows), 0)), *changes])
-    beyond, across_fixed = together - base.half.T @ (base.half @ together), base.fixed.half @ together
+    beyond, across_fixed = base.beyond(together), base.fixed.half @ together
     towards, ends = beyond.T @ rows, np.cumsum([0, *(each.shape[1] for each in changes)])
-    known_from = _known_from(base, beyond, free, drawn)
+    known_from = numbers_behind(base, beyond, free, own)
     found = []
     for each, at in zip(changes, map(slice, ends[:-1], ends[1:]), strict=True):
         # what arms have a little of does not hide a change, but makes it less sure
@@ -53,19 +43,28 @@ def scored(
     return found
 
 
-def _known_from(base: HeldColumns, beyond: Array, free: float, drawn: KnownSizes | None) -> Array:
-    """(q,) from how many numbers it is known how large each may be by chance: by noise, and by what is drawn.
+def numbers_behind(base: HeldColumns, beyond: Array, free: float, own: OwnErrors) -> Array:
+    """From how many numbers it is known how large changes may be by chance: by noise, and by what is drawn.
 
     Of a sum of variances, each known from numbers of its own (Satterthwaite 1946).
+
+    Args:
+        base: what the changes stand beside.
+        beyond: (n, q) what of their columns lies beyond that.
+        free: numbers from which the noise is known.
+        own: errors of each arm's own, which are what is drawn in the base.
+
+    Returns:
+        (q,) at most ``free``.
     """
-    if drawn is None:
+    if not base.drawn:
         return np.full(beyond.shape[1], free)
     by_each = (base.columns[:, : base.drawn].T @ beyond) ** 2
-    of_family = np.zeros((len(drawn.numbers), beyond.shape[1]))
-    np.add.at(of_family, drawn.family, by_each)
+    of_family = np.zeros((len(own.numbers), beyond.shape[1]))
+    np.add.at(of_family, own.family, by_each)
     noise = base.penalty[0] * np.sum(beyond**2, axis=0)
     total = np.maximum(noise + of_family.sum(axis=0), SHARED.least_variance)
-    apart = noise**2 / free + np.sum(of_family**2 / np.minimum(drawn.numbers, free)[:, None], axis=0)
+    apart = noise**2 / free + np.sum(of_family**2 / np.minimum(own.numbers, free)[:, None], axis=0)
     return np.asarray(total**2 / np.maximum(apart, total**2 / free))
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import nctdtrinc, stdtrit
 
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible
 from armscope.comparison.result import Seen
+from armscope.comparison.scoring import numbers_behind
 from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 from armscope.physics.geometric import JOINT_OFFSET
@@ -42,9 +43,11 @@ def _smallest(model: SharedModel, zeros: Sequence[Possible], level: float, found
     variance, free = model.left(model.base(found))
     columns = np.column_stack([model.columns(each)[:, 0] for each in zeros])
     square = np.array([model.size(each)[0] ** 2 for each in zeros])
-    information = base.information(columns).diagonal()
+    beyond = base.beyond(columns)
+    information = np.sum(columns * beyond, axis=0)
     usual = np.array([each.plausible[0] for each in zeros])
     unseen = (square <= variance / usual**2) | (base.fixed.information(columns).diagonal() <= SHARED.unseen * square)
-    # t: F of one number is its square, and noise adds to it or takes away
-    least = stdtrit(free - 1, 1 - level / 2) + stdtrit(free - 1, COMPARING.power)
+    # F of one number is the square of t, of which a change makes a noncentral one
+    known = numbers_behind(base, beyond, free, model.own) - 1
+    least = nctdtrinc(known, 1 - COMPARING.power, stdtrit(known, 1 - level / 2))
     return np.where(unseen, np.inf, least * np.sqrt(model.dispersion * variance / np.where(unseen, 1, information)))

@@ -14,7 +14,7 @@ from armscope.comparison.flange_load import load_at_the_flange
 from armscope.comparison.noisier import LeftOver
 from armscope.comparison.own_errors import learned, no_own_errors, own_errors
 from armscope.comparison.penalised import HeldColumns, held_values, left_of_groups, variance_left
-from armscope.comparison.scoring import KnownSizes, scored
+from armscope.comparison.scoring import scored
 from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
 from armscope.fitting.joint_scatter import motor_jacobians
@@ -195,8 +195,7 @@ class SharedModel:
         base = self.base(taken)
         variance, _ = self.left(base)
         columns = [self._seen_columns(each, variance) for each in possible]
-        drawn = KnownSizes(self.own.family, self.own.numbers) if base.drawn else None
-        return scored(columns, self.residual, base, self.dispersion, drawn)
+        return scored(columns, self.residual, base, self.dispersion, self.own)
 
     def _seen_columns(self, possible: Possible, variance: float) -> Array:
         """(3N, q) of a change's numbers that the rows can show, beside the same effect where it is shared."""

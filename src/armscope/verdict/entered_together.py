@@ -78,12 +78,17 @@ def calibrated_last(jobs: Sequence[Job]) -> list[Job]:
     corrected twice: a wave of a gear left more than before.
     """
     at = next((n for n, (task, _) in enumerate(jobs) if task.change == CALIBRATION), len(jobs))
-    after = [job for job in jobs[at + 1 :] if job[0].members]
+    after = [job for job in jobs[at + 1 :] if _can_be_done_before(job[0])]
     if not after:
         return list(jobs)
-    others = [job for job in jobs[at + 1 :] if not job[0].members]
+    others = [job for job in jobs[at + 1 :] if not _can_be_done_before(job[0])]
     one = _and_calibrated([task for task, _ in after], jobs[at][0]), moved_by([*after, jobs[at]])
     return [*jobs[:at], one, *others]
+
+
+def _can_be_done_before(task: Task) -> bool:
+    """Whether a step is of places, is not to be settled first, and does something by itself."""
+    return bool(task.members) and not (task.unsettled or task.beside_scatter or task.requires)
 
 
 def _and_calibrated(first: Sequence[Task], calibration: Task) -> Task:

@@ -47,6 +47,7 @@ class Task:
         family: of what it cures.
         requires: the family without whose correction it does nothing: a payload's data act through what gives way.
         needs: what has to be done first for that, in words.
+        beside_scatter: why its joint scatters is to be settled first.
     """
 
     what: str
@@ -65,6 +66,7 @@ class Task:
     family: str = ""
     requires: str = ""
     needs: str = ""
+    beside_scatter: bool = False
 
     @property
     def unsettled(self) -> bool:

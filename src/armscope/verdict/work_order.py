@@ -141,9 +141,9 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         more, left, unpaid = _by_gain([*joint, *waiting], left)
         smaller = [*smaller, *more]
     moved = {id(task): moved for task, moved in (*repairs, *minor, *small, *joint)}
-    jobs_in_turn = [(task, moved[id(task)]) for task, _ in (*first, *then, *last, *smaller)]
+    jobs_in_turn = [(beside_scatter(task, verdict), moved[id(task)]) for task, _ in (*first, *then, *last, *smaller)]
     done = _in_turn(calibrated_last(jobs_in_turn), worth.before)
-    done = [_after_what_it_needs(beside_scatter(task, verdict), done[:n]) for n, task in enumerate(done)]
+    done = [_after_what_it_needs(task, done[:n]) for n, task in enumerate(done)]
     done[:1] = [replace(task, confirm=task.confirm.replace(AFTER_REPAIRS, ON_OTHERS)) for task in done[:1]]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
@@ -255,7 +255,8 @@ def beside_scatter(task: Task, verdict: Diagnosis) -> Task:
     places = [member.partition(" at ")[2] for member in task.members]
     if task.family != TRANSMISSION or not loose.intersection(places):
         return task
-    return replace(task, unless=f"{SETTLE_SCATTER.format(enumerated(places))} {task.unless}".rstrip())
+    unless = f"{SETTLE_SCATTER.format(enumerated(places))} {task.unless}".rstrip()
+    return replace(task, unless=unless, beside_scatter=True)
 
 
 def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:
