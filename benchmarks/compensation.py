@@ -84,7 +84,7 @@ def main() -> None:
     model, identified = arm_that_misses()
     tables = {count: curve(model, count) for count in (POINTS, POINTS_BY_ROW)}
     path = as_path(tables[POINTS], "path", model.arm)
-    options = Options(start=MIDDLE)
+    options = Options(start_rad=MIDDLE)
 
     def together() -> None:
         found = compensate_physical(model, identified, path, options)

@@ -7,6 +7,7 @@ import signal
 import sys
 from collections.abc import Iterator
 
+import hypothesis
 import pytest
 import typer.testing
 
@@ -21,6 +22,10 @@ sys.dont_write_bytecode = False
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 gc.set_threshold(20_000, 20, 20)
+
+# no test fails by its time: the first example of a property may import what is slow to import
+hypothesis.settings.register_profile("untimed", deadline=None)
+hypothesis.settings.load_profile("untimed")
 
 # a command line is made of its functions once in a process; typer's runner would make all of it again for every line
 typer.testing._get_command = functools.cache(typer.testing._get_command)

@@ -61,7 +61,7 @@ def commanded(arm, rows, angles, **options):
         "path",
         arm,
     )
-    settings = Options(largest_step=np.inf, allowed=1.0, **options)
+    settings = Options(separate_points=True, allowed_outside=1.0, **options)
     return found, compensate_physical(found.model, identified_on(arm, rows), path, settings)
 
 

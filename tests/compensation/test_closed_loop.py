@@ -73,7 +73,7 @@ class Loop:
         return float(np.sqrt(np.mean((measured - self.wanted_mm) ** 2)))
 
     def commands(self, model):
-        return compensate_physical(model, self.identified, self.path, Options("measurement", start=self.start))
+        return compensate_physical(model, self.identified, self.path, Options("measurement", start_rad=self.start))
 
 
 @pytest.mark.parametrize(

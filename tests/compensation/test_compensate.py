@@ -76,7 +76,7 @@ def test_physics_reaches_the_points_that_the_instrument_reads():
     points, middle = physical_path()
     measured = model.to_measurement(points, np.full(len(points), "monday"))
     path = as_path(table_of(measured, **CONTEXT), "path", model.arm)
-    result = compensate_physical(model, identified, path, Options("measurement", start=middle))
+    result = compensate_physical(model, identified, path, Options("measurement", start_rad=middle))
     assert result.reached.all(), set(result.reasons)
     rows = physical_angles(model, path, result.commands, CONTEXT)
     assert np.abs(predict(model, rows) - measured).max() < 2e-9
@@ -88,10 +88,10 @@ def test_in_the_base_frame_the_registration_does_not_matter():
     model, identified = physical()
     points, middle = physical_path()
     path = as_path(table_of(points, **CONTEXT), "path", model.arm)
-    near = compensate_physical(model, identified, path, Options(start=middle))
+    near = compensate_physical(model, identified, path, Options(start_rad=middle))
     measured = model.to_measurement(points, np.full(len(points), "monday"))
     far_path = as_path(table_of(measured, **CONTEXT), "path", model.arm)
-    far = compensate_physical(model, identified, far_path, Options("measurement", start=middle))
+    far = compensate_physical(model, identified, far_path, Options("measurement", start_rad=middle))
     np.testing.assert_allclose(near.commands, far.commands, atol=1e-8)
 
 
@@ -101,7 +101,7 @@ def test_another_load_asks_for_other_commands():
     light, heavy = (
         compensate_physical(
             model, identified, as_path(table_of(points, payload_kg=load, temperature_c=24.0), "p", model.arm),
-            Options(start=middle),
+            Options(start_rad=middle),
         )
         for load in (0.0, 10.0)
     )  # fmt: skip
@@ -114,13 +114,13 @@ def test_full_pose_keeps_the_orientation_too():
     turn = chain(model.arm, middle[None]).tool_rotation[0]
     x, y, z, w = Rotation.from_matrix(turn).as_quat()
     path = as_path(table_of(points, qw=w, qx=x, qy=y, qz=z, **CONTEXT), "path", model.arm)
-    result = compensate_physical(model, identified, path, Options(pose=True, start=middle))
+    result = compensate_physical(model, identified, path, Options(pose=True, start_rad=middle))
     assert result.reached.all(), set(result.reasons)
     rows = physical_angles(model, path, result.commands, CONTEXT)
     frames = model.posture(model.scene(rows)).frames
     assert Rotation.from_matrix(frames.tool_rotation @ turn.T).magnitude().max() < 1e-8
     assert np.abs(frames.tool - points).max() < 2e-9
-    free = compensate_physical(model, identified, path, Options(start=middle))
+    free = compensate_physical(model, identified, path, Options(start_rad=middle))
     frames = model.posture(model.scene(physical_angles(model, path, free.commands, CONTEXT))).frames
     assert Rotation.from_matrix(frames.tool_rotation @ turn.T).magnitude().max() > 1e-3
 
@@ -129,10 +129,10 @@ def test_commands_of_a_long_path_do_not_jump():
     model, identified = physical()
     points, middle = physical_path(3000)
     path = as_path(table_of(points, **CONTEXT), "path", model.arm)
-    result = compensate_physical(model, identified, path, Options(start=middle))
+    result = compensate_physical(model, identified, path, Options(start_rad=middle))
     assert result.reached.all()
     few = compensate_physical(
-        model, identified, as_path(table_of(points[::10], **CONTEXT), "p", model.arm), Options(start=middle)
+        model, identified, as_path(table_of(points[::10], **CONTEXT), "p", model.arm), Options(start_rad=middle)
     )
     assert np.abs(np.diff(result.commands, axis=0)).max() < 3e-3
     # knots and interpolation lead along the same branch as every point by itself

@@ -63,7 +63,30 @@ def test_an_input_that_stood_still_may_leave_by_its_tolerance_only():
     assert domain.still("rad") == {"q3": pytest.approx(0.3)}
     middle = data.mean(axis=0)
     distance, _ = domain.outside(middle + np.array([[0, 0, 0.019], [0, 0, 0.021]]))
-    assert distance[0] < 0.2 < distance[1]
+    assert distance[0] < domain.allowed < distance[1]
+
+
+@pytest.mark.parametrize("count", [40, 60, 150])
+def test_poses_drawn_as_the_recorded_ones_were_are_inside(count):
+    rng = np.random.default_rng(count)
+    names, units = [f"q{i}" for i in range(1, 7)], ["rad"] * 6
+    outside = []
+    for _ in range(20):
+        domain = Domain.of(rng.uniform(-1, 1, (count, 6)), names, units)
+        outside.append(domain.outside(rng.uniform(-1, 1, (200, 6)))[0] > domain.allowed)
+    assert 0.005 < np.mean(outside) < 0.1
+
+
+def test_one_pose_far_from_all_others_does_not_open_the_range_to_everything():
+    data = rows()
+    usual = Domain.of(data, ["q1", "q2", "q3"], ["rad"] * 3).allowed
+    data[0] = 8.0
+    assert Domain.of(data, ["q1", "q2", "q3"], ["rad"] * 3).allowed < usual + 0.1
+
+
+def test_corners_of_a_design_are_bounded_by_their_neighbours():
+    corners = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T.repeat(8, axis=0)
+    assert Domain.of(corners, ["q1", "q2", "q3"], ["rad"] * 3).allowed == RANGE.allowed
 
 
 def test_a_domain_comes_back_from_its_plain_values():

@@ -79,8 +79,8 @@ def test_ten_thousand_points_are_reached_every_one():
     points, middle = physical_path(10_000)
     path = as_path(table_of(points, **CONTEXT), "path", model.arm)
     ours = as_path(table_of(wanted_points(10_000)), "path", sk120())
-    assert compensate_physical(model, identified, path, Options(start=middle)).reached.all()
-    assert compensate_black_box(black_box(), ours, Options(start=MIDDLE)).reached.all()
+    assert compensate_physical(model, identified, path, Options(start_rad=middle)).reached.all()
+    assert compensate_black_box(black_box(), ours, Options(start_rad=MIDDLE)).reached.all()
 
 
 def test_where_on_the_tool_one_measured_is_no_error_of_the_arm():
@@ -122,7 +122,7 @@ def test_a_drift_is_not_continued_into_another_day():
     first, last = identified.time_s
     table = table_of(points, **CONTEXT, time_s=[first, last, last + 0.05 * (last - first), last + 86400])
     path = as_path(table, "path", model.arm)
-    said = compensate_physical(drifting, identified, path, Options(start=middle)).reasons
+    said = compensate_physical(drifting, identified, path, Options(start_rad=middle)).reasons
     assert said[:3].tolist() == [""] * 3
     assert "time_s" in said[3]
-    assert set(compensate_physical(model, identified, path, Options(start=middle)).reasons) == {""}
+    assert set(compensate_physical(model, identified, path, Options(start_rad=middle)).reasons) == {""}

@@ -20,20 +20,22 @@ def reasons(table, options=None):
     model, identified = physical()
     _, middle = physical_path()
     return compensate_physical(
-        model, identified, as_path(table, "path", model.arm), options or Options(start=middle)
+        model, identified, as_path(table, "path", model.arm), options or Options(start_rad=middle)
     ).reasons
 
 
 def test_outside_the_identified_range_is_refused_and_the_distance_stated():
     wanted = wanted_points(3)
     wanted[1] = chain(sk120(), (MIDDLE + np.eye(6)[0])[None]).tool[0]
-    result = compensate_black_box(black_box(), as_path(table_of(wanted), "path", sk120()), Options(largest_step=np.inf))
+    result = compensate_black_box(
+        black_box(), as_path(table_of(wanted), "path", sk120()), Options(separate_points=True)
+    )
     assert result.reached.tolist() == [True, False, True]
     assert "outside the identified range" in result.reasons[1]
     assert result.outside[1] > 0.2
     assert f"{result.outside[1]:.2g} standard deviations" in result.reasons[1]
     allowed = compensate_black_box(
-        black_box(), as_path(table_of(wanted), "path", sk120()), Options(largest_step=np.inf, allowed=10.0)
+        black_box(), as_path(table_of(wanted), "path", sk120()), Options(separate_points=True, allowed_outside=10.0)
     )
     assert allowed.reached.all()
 
@@ -60,7 +62,9 @@ def test_context_that_the_model_does_not_follow_is_not_asked_for():
     model, identified = physical()
     points, middle = physical_path(5)
     stiff = replace(model, parts=model.parts[:1])
-    result = compensate_physical(stiff, identified, as_path(table_of(points), "path", model.arm), Options(start=middle))
+    result = compensate_physical(
+        stiff, identified, as_path(table_of(points), "path", model.arm), Options(start_rad=middle)
+    )
     assert result.reached.all()
 
 
@@ -84,7 +88,7 @@ def test_limits_are_kept_and_named():
     angles = np.tile(MIDDLE, (2, 1))
     angles[1, 0] = np.radians(151)
     table = pd.DataFrame(angles, columns=[f"q{j}_rad" for j in range(1, 7)])
-    result = compensate_black_box(black_box(), as_path(table, "path", arm), Options(allowed=100.0))
+    result = compensate_black_box(black_box(), as_path(table, "path", arm), Options(allowed_outside=100.0))
     assert result.reasons.tolist() == ["", "limit of joint 1"]
 
 
@@ -92,13 +96,13 @@ def test_a_command_never_leaves_the_limits():
     model, identified = physical()
     points, middle = physical_path(15)
     free = compensate_physical(
-        model, identified, as_path(table_of(points, **CONTEXT), "p", model.arm), Options(start=middle)
+        model, identified, as_path(table_of(points, **CONTEXT), "p", model.arm), Options(start_rad=middle)
     )
     limits = np.column_stack([free.commands.min(axis=0) - 1, free.commands.max(axis=0) + 1])
     limits[3, 1] = np.median(free.commands[:, 3])  # within what the free commands use
     tight = replace(model, arm=replace(model.arm, limits=limits))
     result = compensate_physical(
-        tight, identified, as_path(table_of(points, **CONTEXT), "p", model.arm), Options(start=middle)
+        tight, identified, as_path(table_of(points, **CONTEXT), "p", model.arm), Options(start_rad=middle)
     )
     commands = result.commands[result.reached]
     assert len(commands)
@@ -112,7 +116,7 @@ def test_the_pole_of_the_wrist_is_refused_in_full_pose():
     straight = middle.copy()
     straight[4] = wrist_pole(model.arm, middle)
     table = pd.DataFrame([middle, straight], columns=[f"q{j}_rad" for j in range(1, 7)]).assign(**CONTEXT)
-    said = reasons(table, Options(pose=True, start=middle, allowed=5.0))
+    said = reasons(table, Options(pose=True, start_rad=middle, allowed_outside=5.0))
     assert said[0] == ""
     assert "pole" in said[1]
 
@@ -130,7 +134,7 @@ def test_a_turned_away_orientation_is_refused_not_approximated():
     points, middle = physical_path(3)
     turn = chain(model.arm, middle[None]).tool_rotation[0] @ Rotation.from_euler("y", 170, degrees=True).as_matrix()
     x, y, z, w = Rotation.from_matrix(turn).as_quat()
-    said = reasons(table_of(points, qw=w, qx=x, qy=y, qz=z, **CONTEXT), Options(pose=True, start=middle))
+    said = reasons(table_of(points, qw=w, qx=x, qy=y, qz=z, **CONTEXT), Options(pose=True, start_rad=middle))
     assert (said != "").all()
 
 

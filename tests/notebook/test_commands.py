@@ -55,8 +55,10 @@ def test_it_draws_and_names_the_figures_that_there_are(found):
 
 
 def test_it_compensates_and_chooses(found):
-    wanted = pd.read_csv(RECORDINGS)[[f"q{j}_rad" for j in range(1, 7)]].head(3)
+    wanted = pd.read_csv(RECORDINGS)[[*(f"q{j}_rad" for j in range(1, 7)), "payload_kg"]].head(3)
     assert len(armscope.compensate(found, wanted).commands) == 3
+    options = {"start_rad": [0.0] * 6, "allowed_outside": 9.0, "separate_points": True, "frame": "measurement"}
+    assert armscope.compensate(found, wanted, **options).reached.all()
     assert len(armscope.choose_poses(ROBOT, 15, n_candidates=100, starts=1).indices) > 0
 
 

@@ -49,9 +49,13 @@ def compensate(
         str | None, typer.Option(help="q1,q2,... in rad: the posture from which the arm starts")
     ] = None,
     allowed_outside: Annotated[
-        float,
-        typer.Option(min=0, help="how far a command may lie outside the identified range, in standard deviations"),
-    ] = 0.2,
+        float | None,
+        typer.Option(
+            min=0,
+            help="how far a command may lie outside the identified range, in standard deviations; as far as poses do "
+            "that were recorded alike if left out",
+        ),
+    ] = None,
     separate_points: Annotated[
         bool, typer.Option(help="single points, no path: the arm may turn far between them")
     ] = False,
@@ -72,16 +76,12 @@ def compensate(
 
     wanted = read_path(path, fitted.arm)
 
-    import numpy as np
-
     from armscope.compensation.black_box import ErrorModel
     from armscope.compensation.compensate import compensate_black_box, compensate_physical
     from armscope.compensation.task import Options
-    from armscope.robot.constants import SEARCH
     from armscope.robot.inverse import BEYOND_REACH
 
-    step = np.inf if separate_points else SEARCH.jump_rad
-    options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, step)
+    options = Options(frame, pose, _start(start_rad, fitted.arm), allowed_outside, separate_points)
     if isinstance(fitted, ErrorModel):
         result = compensate_black_box(fitted, wanted, options)
     else:

@@ -72,9 +72,12 @@ class IdentifiedRange(Constants):
 
     allowed: float = constant(
         0.2,
-        "by which a point may lie outside",
+        "by which a point may lie outside in any case",
         "derived: 6 % of an evenly filled range, whose standard deviation is 1 / sqrt(12) of it",
         unit="standard deviations",
+    )
+    alike: float = constant(
+        0.95, "share of rows recorded alike that shall be inside", "judgement: one in twenty is worth a second look"
     )
     still_rad: float = constant(0.02, "span of an angle that stands still", "judgement: a degree", unit="rad")
     still_mm: float = constant(

@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
+from armscope.compensation.constants import RANGE
 from armscope.compensation.domain import count_directions
 from armscope.core.inputs import Strict
 from armscope.errormodels.features import input_names
@@ -33,6 +34,7 @@ class DomainContent(Strict):
     low: Numbers
     high: Numbers
     standardised_rows: tuple[Numbers, ...] = Field(min_length=1)
+    allowed: Positive = RANGE.allowed
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

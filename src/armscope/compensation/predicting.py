@@ -177,7 +177,6 @@ def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
 def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
     """As `_by_physics` for a black-box model; poses outside the identified range are named."""
     from armscope.compensation.black_box import domain_inputs
-    from armscope.compensation.constants import RANGE
     from armscope.compensation.error_model_file import load_error_model
 
     fitted = load_error_model(model)
@@ -191,6 +190,6 @@ def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
             "Fit it to recordings with qw ... qz.",
         )
     points, rotations = fitted.as_measured(rows.motor_angles)
-    outside = fitted.domain.outside(domain_inputs(fitted, rows.motor_angles))[0] > RANGE.allowed
+    outside = fitted.domain.outside(domain_inputs(fitted, rows.motor_angles))[0] > fitted.domain.allowed
     notes = [f"{outside.sum()} of {len(rows)} rows lie outside the identified range"] if outside.any() else []
     return points, rotations if pose else None, rows, notes

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from armscope.compensation.constants import COMMANDS, RANGE
+from armscope.compensation.constants import COMMANDS
 from armscope.compensation.correction import correct
 from armscope.compensation.domain import Domain
 from armscope.compensation.forward import Forward, NominalArm
@@ -31,16 +31,22 @@ class Options:
     Attributes:
         frame: where wanted points and orientations stand: in the arm's base frame, or in the measurement frame.
         pose: keep the orientation, too: of the table's quaternions, or of its joint angles.
-        start: (m,) rad, where the arm comes from; None takes the middle of the identified range.
-        allowed: how far outside the identified range a command may lie, standard deviations.
-        largest_step: rad; a larger motion of a motor between neighbouring rows is a jump.
+        start_rad: (m,) where the arm comes from; None takes the middle of the identified range.
+        allowed_outside: how far outside the identified range a command may lie, standard deviations; None: as far as
+            poses do that were recorded alike.
+        separate_points: single points, no path: a motor may turn far between neighbouring rows.
     """
 
     frame: Frame = "base"
     pose: bool = False
-    start: Array | None = None
-    allowed: float = RANGE.allowed
-    largest_step: float = SEARCH.jump_rad
+    start_rad: Array | None = None
+    allowed_outside: float | None = None
+    separate_points: bool = False
+
+    @property
+    def largest_step(self) -> float:
+        """Beyond which a motion of a motor between neighbouring rows is a jump, rad."""
+        return np.inf if self.separate_points else SEARCH.jump_rad
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +164,7 @@ class PathTask:
             angles = self.path.table.motor_angles.copy()
             self._refuse_beyond_limits(refused, angles)
             return angles if self.path.points is None else self._nearest(wanted, angles, held, refused)
-        start = self.options.start
+        start = self.options.start_rad
         if start is None:
             middle = [self.domain.value(f"q{j}") if f"q{j}" in self.domain.inputs else np.nan for j in self._motors]
             limits = np.where(np.isfinite(self.arm.limits).all(axis=1), np.nan_to_num(self.arm.limits).mean(axis=1), 0)
@@ -219,6 +225,7 @@ class PathTask:
         """
         outside, nearest = np.full(len(commands), np.nan), np.full(len(commands), np.nan)
         solved = np.flatnonzero(np.isfinite(commands.sum(axis=1)))
+        allowed = self.domain.allowed if self.options.allowed_outside is None else self.options.allowed_outside
         pieces = [solved[piece] for piece in row_pieces(len(solved))]
 
         def looked_up(rows: Indices) -> tuple[Array, NDArray[np.object_], Array]:
@@ -227,9 +234,12 @@ class PathTask:
 
         for rows, found in zip(pieces, piece_by_piece(pieces, looked_up), strict=True):
             outside[rows], label, nearest[rows] = found
-            for at in np.flatnonzero(outside[rows] > self.options.allowed):
+            for at in np.flatnonzero(outside[rows] > allowed):
                 row = rows[at]
-                text = f"outside the identified range: {label[at]} by {outside[row]:.2g} standard deviations{doubt}"
+                text = (
+                    f"outside the identified range: {label[at]} by {outside[row]:.2g} standard deviations, "
+                    f"{allowed:.2g} allowed{doubt}"
+                )
                 refused[row] = refused[row] or text
         return outside, nearest
 

@@ -188,7 +188,7 @@ def compensate(
         model: a diagnosis, a fitted model, or the path of model.yaml or errormodel.json.
         path: wanted points.
         recordings: on which the model was identified; of a diagnosis its own, beside a model.yaml its domain.json.
-        options: of `armscope.compensation.task.Options` (``frame="measurement", pose=True``).
+        options: those of the command line: frame, pose, start_rad, allowed_outside, separate_points.
 
     Returns:
         Commands, what they will reach, and which rows have none; `to_table()` is what the command writes.
