@@ -20,6 +20,9 @@ class DraftGuesses(Constants):
         "derived: a whole turn, and what rounding to two decimals adds",
         unit="rad",
     )
+    unit_length: float = constant(
+        1e-3, "by which the length of a quaternion may differ from 1", "derived: three decimals round by half of it"
+    )
     metres_up_to: float = constant(
         30.0,
         "largest coordinate up to which all are metres",

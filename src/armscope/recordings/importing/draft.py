@@ -11,9 +11,9 @@ import yaml
 
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
-from armscope.recordings.columns import QUATERNION
 from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.constants import DRAFT, LIMITS
+from armscope.recordings.importing.draft_orientations import orientation_lines
 from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
@@ -41,6 +41,10 @@ BESIDE = {
     "approach": ("approach", "dir", "direction"),
 }
 RUNS = r"(run|session|series|campaign|lauf|serie|messreihe|sitzung)([\s_]?(id|name|no|nr|number))?"
+SCALARS = {
+    "payload": r"(payload|load|last|nutzlast|traglast)([\s_.\[(]*kg)?[\])]?",
+    "temperature": r"temp(eratur|erature)?([\s_.\[(]*(°?c|degc))?[\])]?",
+}
 NOT_ANGLES = ("current", "i", "temp", "temperature", "volt", "m", "ddq", "qdd", "acc")
 MAKERS_LETTERS = ("s", "l", "u", "r", "b", "t")
 """How Yaskawa-Motoman names the six motors of an arm, from the base to the tool."""
@@ -244,13 +248,12 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
         listed = column_list(table, columns)
         yield f"  {group}: {{columns: {listed}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
-    if of_one_point and all(part in small for part in QUATERNION):
-        listed = column_list(table, [small[part] for part in QUATERNION])
-        yield f"  orientation: {{quaternion: {listed}, order: wxyz}}   # guessed by name"
+    if of_one_point:
+        yield from orientation_lines(table, taken)
     singles = {
-        "temperature": (r"temp(erature)?([\s_.\[(]*(°?c|degc))?[\])]?", "temperature: {{column: {}}}"),
-        "payload": (r"(payload|load)([\s_.\[(]*kg)?[\])]?", "payload: {{column: {}}}"),
-        "time": (r"(time|t|timestamp)([\s_.\[(]*s)?[\])]?", "time: {{column: {}, unit: s}}"),
+        "temperature": (SCALARS["temperature"], "temperature: {{column: {}}}"),
+        "payload": (SCALARS["payload"], "payload: {{column: {}}}"),
+        "time": (r"(time|zeit|t|timestamp)([\s_.\[(]*s)?[\])]?", "time: {{column: {}, unit: s}}"),
         "target": (r"(target|reflector|smr|point)([\s_]?(id|name|no))?", "target: {{column: {}}}"),
     }
     run = next((column for name, column in small.items() if re.fullmatch(RUNS, name)), None)

@@ -15,6 +15,7 @@ from armscope.recordings.importing.draft import (
     BESIDE,
     HEAD,
     RUNS,
+    SCALARS,
     draft_mapping,
     format_lines,
     in_a_row,
@@ -43,10 +44,6 @@ WARMTH = ("temp", "temperature", "temperatur")
 TIME = r"(time|zeit|t|timestamp|clock)([\s_.\[(]*(s|ms|sec|seconds))?[\])]?"
 TIME_UNITS = {"s": "s", "sec": "s", "seconds": "s", "ms": "ms"}
 MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
-SCALARS = {
-    "payload": r"(payload|load|last)([\s_.\[(]*kg)?[\])]?",
-    "temperature": r"temp(eratur|erature)?([\s_.\[(]*(°?c|degc))?[\])]?",
-}
 
 
 def draft_any_mapping(path: Path | str) -> str:

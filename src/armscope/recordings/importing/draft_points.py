@@ -41,7 +41,7 @@ def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
     return several if len(several) == len(alike) > 1 else [whole[best]]
 
 
-_NO_POINT = re.compile(r"r\?|rot|q\?|quat|force|f\?|sigma")
+_NO_POINT = re.compile(r"r\?|rot|orient|q\?|quat|force|f\?|sigma")
 """What stands beside an axis' letter where a column is no length."""
 
 

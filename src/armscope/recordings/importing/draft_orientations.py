@@ -1,0 +1,73 @@
+"""Which columns of a foreign table look like an orientation: a quaternion proves itself, three angles are offered only.
+
+A controller's log has angles such as A, B, C that it computed from its own model; taken for measured ones they would
+confirm that model. Their convention depends on the maker. So they come as a comment that somebody takes out.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+
+import numpy as np
+
+from armscope.recordings.importing.constants import DRAFT
+from armscope.recordings.importing.first_table import ForeignTable, below_name, column_list
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, stated_unit
+
+QUATERNION_PART = re.compile(
+    r"(.*[\s_.\-/])?(q|quat|quaternion|rot|rotation|ori|orient|orientation|o)?[\s_.\-\[(]*(?P<part>[wxyz])[\])]?"
+)
+BY_ANGLES = {
+    ("a", "b", "c"): "euler: {columns}, sequence: ZYX, unit: {unit}",
+    ("w", "p", "r"): "euler: {columns}, sequence: xyz, unit: {unit}",
+    ("roll", "pitch", "yaw"): "euler: {columns}, sequence: xyz, unit: {unit}",
+    ("rx", "ry", "rz"): "rotation_vector: {columns}, unit: {unit}",
+}
+"""Names of three angles, and what they mostly are: KUKA's A, B, C about z, y, x; FANUC's W, P, R; UR's vector."""
+COMPUTED = "the controller computed it"
+
+
+def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[str]:
+    """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it.
+
+    Args:
+        table: the table.
+        taken: columns that are something else: motor angles and the point.
+
+    Yields:
+        At most one line.
+    """
+    free = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
+    if columns := _quaternion(table, free):
+        said = f"quaternion: {column_list(table, columns)}, order: wxyz"
+        yield f"  orientation: {{{said}}}   # guessed: their length is 1; leave it out where {COMPUTED}"
+        return
+    bare = {_without_unit(name): column for name, column in free.items()}
+    for names, line in BY_ANGLES.items():
+        if not set(names) <= set(bare):
+            continue
+        columns = [bare[name] for name in names]
+        largest = np.nanmax(np.abs(table.values[:, columns]), initial=0.0)
+        stated = stated_unit(table.names[columns[0]], below_name(table, columns[0]), ANGLE_UNITS)
+        unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
+        said = line.format(columns=column_list(table, columns), unit=unit)
+        yield f"  # orientation: {{{said}}}   # guessed: not taken, as if {COMPUTED}"
+        return
+
+
+def _quaternion(table: ForeignTable, free: dict[str, int]) -> list[int]:
+    """Columns of w, x, y, z whose squares sum to 1 in every row that has them."""
+    parts = {found["part"]: column for name, column in free.items() if (found := QUATERNION_PART.fullmatch(name))}
+    if set(parts) != set("wxyz"):
+        return []
+    columns = [parts[part] for part in "wxyz"]
+    lengths = np.linalg.norm(table.values[:, columns], axis=1)
+    known = lengths[np.isfinite(lengths)]
+    return columns if len(known) and np.all(np.abs(known - 1) < DRAFT.unit_length) else []
+
+
+def _without_unit(name: str) -> str:
+    """`rx [rad]`, `roll_deg` without what stands for the unit."""
+    found = re.fullmatch(r"(.+?)[\s_.\-\[(]+([a-z°]+)[\])]?", name)
+    return found[1] if found and found[2] in ANGLE_UNITS else name
