@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from armscope.comparison import changes, compare
 from armscope.comparison.changes import _kind
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.result import Valued
+from armscope.comparison.valued import Valued
 from armscope.core.inputs import InputError
 from armscope.recordings import as_recordings
 from armscope.robot import chain, load_arm

@@ -1,5 +1,8 @@
 """Fits with penalties against plain least squares, and the rows' own count of what is free."""
 
+import gc
+import weakref
+
 import numpy as np
 import pytest
 
@@ -61,3 +64,17 @@ def test_what_is_fixed_is_what_is_not_drawn() -> None:
     across = base.columns @ np.linalg.solve(base.gram + np.diag(base.penalty), base.columns.T)
     other = np.random.default_rng(1).normal(size=(40, 3))
     np.testing.assert_allclose(base.information(other), other.T @ (np.eye(40) - across) @ other)
+
+
+@pytest.mark.parametrize("drawn", [0, 1])
+def test_columns_go_as_soon_as_nobody_needs_them(drawn):
+    """A search makes thousands; kept until garbage was looked for, two short tables took gigabytes."""
+    held = HeldColumns(np.eye(4)[:, :2], np.ones(2), drawn)
+    held.fixed.half  # noqa: B018 - what is computed once is kept in it
+    seen = weakref.ref(held)
+    gc.disable()
+    try:
+        del held
+        assert seen() is None
+    finally:
+        gc.enable()

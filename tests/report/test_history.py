@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from armscope.comparison.result import Change, Comparison, Valued
+from armscope.comparison.result import Change, Comparison
+from armscope.comparison.valued import Valued
 from armscope.report.figures.history import LETTERS, LONGEST, history_figure, history_table
 
 SINCE = (0.0, 3e-4, 3e-4), (0.0, 1e-5, 1e-5)

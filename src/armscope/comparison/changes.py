@@ -23,13 +23,14 @@ from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
-from armscope.comparison.result import Change, Comparison, Kind, Left, Valued
+from armscope.comparison.result import Change, Comparison, Kind, Left
 from armscope.comparison.search import likeliest_changes
 from armscope.comparison.seen import seen
 from armscope.comparison.sets import of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.standing import stands
 from armscope.comparison.steps import as_steps
+from armscope.comparison.valued import Valued
 from armscope.core.types import Array
 from armscope.physics.effect import Term
 from armscope.recordings import Recordings

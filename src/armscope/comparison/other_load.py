@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.comparison.flange_load import ANOTHER_LOAD
-from armscope.comparison.result import Change, Valued
+from armscope.comparison.result import Change
+from armscope.comparison.valued import Valued
 from armscope.core.types import Array
 from armscope.physics.registry import effect_named
 from armscope.robot import Arm, chain

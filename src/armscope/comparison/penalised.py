@@ -49,10 +49,14 @@ class HeldColumns:
         other.__dict__["gram"] = self.gram  # the dearest part, and the same
         return other
 
-    @functools.cached_property
+    @property
     def fixed(self) -> HeldColumns:
         """Without what is drawn."""
-        return HeldColumns(self.columns[:, self.drawn :], self.penalty[self.drawn :]) if self.drawn else self
+        return self._not_drawn if self.drawn else self  # kept in itself, it would outlive its use until garbage is sought
+
+    @functools.cached_property
+    def _not_drawn(self) -> HeldColumns:
+        return HeldColumns(self.columns[:, self.drawn :], self.penalty[self.drawn :])
 
     def beyond(self, columns: Array) -> Array:
         """(n, q) what of columns (n, q) these do not fit."""

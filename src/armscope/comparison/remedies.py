@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.comparison.flange_load import ANOTHER_LOAD
-from armscope.comparison.result import Change, Comparison, Valued
+from armscope.comparison.result import Change, Comparison
+from armscope.comparison.valued import Valued
 from armscope.core.words import enumerated
 from armscope.physics.effect import Effect
 from armscope.physics.registry import effect_named
@@ -53,7 +54,7 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
     if found.over_in(change):
         done = f"Nothing is left to be done about what {enumerated(change.where)} alone had."
         return Remedy(known.physics, _why(found, change), "", done, "")
-    numbers = [difference_of(number) for number in change.parameters]
+    numbers = [difference_of(number) for number in change.parameters if not number.unknown]
     verb, worth = "it differs" if found.of_arms else "it moved", _worth(change)
     if (turned := _on_the_other_side(found, change)) is not None:
         numbers, verb, worth = [turned], "it is off", ""

@@ -8,11 +8,11 @@ from typing import Any, Literal
 
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.noisier import Noisier, told_of
-from armscope.core.numerals import shown_unit, size_of
+from armscope.comparison.valued import Valued, number_line
+from armscope.core.numerals import size_of
 from armscope.core.words import enumerated
 from armscope.verdict.constants import WORDS
-from armscope.verdict.effects import INTERVAL
-from armscope.verdict.wording import capitalised, decimals_for, places_in_words
+from armscope.verdict.wording import capitalised, places_in_words
 
 UNLIKE = {
     "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",
@@ -22,34 +22,6 @@ UNLIKE = {
 """What a change is called where recordings are of several arms."""
 MOMENT = "compliance_times_moment_"
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
-
-
-@dataclass(frozen=True)
-class Valued:
-    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval.
-
-    Attributes:
-        name, unit: of the parameter.
-        values, stderrs: one per recording.
-        since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
-            where all share what these poses leave open.
-        difference: with the change less without it.
-        interval_95: of the difference.
-    """
-
-    name: str
-    unit: str
-    values: tuple[float, ...]
-    stderrs: tuple[float, ...]
-    since_first: tuple[float, ...]
-    since_first_stderrs: tuple[float, ...]
-    difference: float
-    interval_95: tuple[float, float]
-
-    @property
-    def left_open(self) -> bool:
-        """Whether the poses leave open how large it is in all recordings, though not how far it changed."""
-        return max(map(abs, self.values)) < INTERVAL * min(self.stderrs)
 
 
 @dataclass(frozen=True)
@@ -247,7 +219,7 @@ class Comparison:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")
             moments = moments_of(each)
-            lines += [f"  {_number_line(number)}" for number in each.parameters if number not in moments]
+            lines += [f"  {number_line(number)}" for number in each.parameters if number not in moments]
             lines += [f"  {moments_in_words(each.location, len(moments))}"] * bool(moments)
             if each.alternatives:
                 lines.append(f"  these recordings do not distinguish it from: {', '.join(each.alternatives)}")
@@ -273,28 +245,3 @@ def moments_in_words(location: str, count: int) -> str:
         f"{count} numbers tell how {location} gives way to what it carries, whose masses need not be as stated: each "
         "is the drive's compliance times the mass moment of one combination of links."
     )
-
-
-def wave_part(name: str) -> str:
-    """What "cosine_2" and "sine_rx" are; empty for other numbers."""
-    part, _, of = name.partition("_")
-    if part not in ("cosine", "sine"):
-        return ""
-    of = {"rx": "about x", "ry": "about y", "rz": "about z"}.get(of, f"{of} per turn" if of else "")
-    return f"{part} part of the wave{', ' * bool(of)}{of}"
-
-
-def _number_line(number: Valued) -> str:
-    factor, unit = shown_unit(number.unit, max(map(abs, (*number.values, number.difference))))
-    low, high = number.interval_95
-    digits = decimals_for(factor * (high - low) / (2 * INTERVAL))
-
-    def told(value: float) -> str:
-        return f"{round(factor * value, digits) + 0.0:.{digits}f}"
-
-    change = f"change {told(number.difference)} ({told(low)} ... {told(high)}) {unit}"
-    name = wave_part(number.name) or number.name.replace("_", " ")
-    if number.left_open:
-        return f"{name}: {change}; how large it is in all of them, these poses leave open"
-    values = " -> ".join(map(told, number.values))
-    return f"{name}: {values} {unit}; {change}"

@@ -15,7 +15,8 @@ from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
-from armscope.comparison.result import moments_in_words, moments_of, wave_part
+from armscope.comparison.result import moments_in_words, moments_of
+from armscope.comparison.valued import wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.core.words import enumerated
@@ -27,6 +28,7 @@ from armscope.verdict.wording import capitalised, decimals_for, millimetres, pla
 PAGE, DATA, TABLE, FIGURE = "changes.html", "comparison.json", "history.csv", "history.png"
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
 LEFT_OPEN = "left open by these poses, unlike the difference"
+UNKNOWN = "left open by these poses"
 SMALLEST = 1e-6
 """Smaller probabilities are not told apart: no test's assumptions hold so far out."""
 MOST_LISTED = 4
@@ -216,6 +218,12 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
     """A number before and after: the mean over the recordings without and with the change."""
     difference = difference_of(number)
     reading = read_parameter(difference, change.effect)
+    label = wave_part(number.name) or reading.label
+    if number.unknown:
+        return ChangedNumber(
+            wave_part(number.name) or read_parameter(difference, change.effect).label, UNKNOWN, UNKNOWN, "–", "", "–"
+        )
+    reading = read_parameter(difference, change.effect)
     before = float(np.mean(np.array(number.values)[np.isin(found.names, change.against)]))
     after = before + number.difference
     factor, unit = shown_unit(number.unit, max(abs(before), abs(after), abs(number.difference)))
@@ -228,7 +236,7 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
     plus = "+" if number.difference > 0 else ""
     also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
     return ChangedNumber(
-        wave_part(number.name) or reading.label,
+        label,
         told(before),
         told(after),
         f"{plus}{reading.value}",

@@ -1,0 +1,39 @@
+"""A number that changed: what the poses leave open of it is not printed as if it were known."""
+
+import math
+
+from armscope.comparison.valued import Valued, number_line, wave_part
+
+
+def length(stderr_m: float, change_stderr_m: float) -> Valued:
+    half = 1.96 * change_stderr_m
+    values, errors = (2e-4, 5e-4), (stderr_m,) * 2
+    return Valued("a", "m", values, errors, (0.0, 3e-4), (0.0, change_stderr_m), 3e-4, (3e-4 - half, 3e-4 + half))
+
+
+def test_a_known_number_is_told_before_and_after():
+    assert number_line(length(1e-5, 1e-5)) == "a: 0.200 -> 0.500 mm; change 0.300 (0.280 ... 0.320) mm"
+
+
+def test_what_is_alike_in_all_may_be_open_while_the_change_is_known():
+    line = number_line(length(1e-3, 1e-5))
+    assert "change 0.300 (0.280 ... 0.320) mm" in line
+    assert "leave open" in line
+
+
+def test_an_interval_of_decimetres_is_no_number():
+    number = length(0.15, 0.15)
+    assert number.unknown
+    assert number_line(number) == "a: these poses leave open what it is, and how far it changed"
+
+
+def test_a_unit_without_a_known_range_is_told_as_it_is():
+    number = Valued("x", "kg", (0.0, 1.0), (9.0, 9.0), (0.0, 1.0), (0.0, 9.0), 1.0, (-17.0, 19.0))
+    assert not number.unknown
+    assert math.isclose(number.difference, 1.0)
+
+
+def test_parts_of_waves_have_names():
+    assert wave_part("cosine_2") == "cosine part of the wave, 2 per turn"
+    assert wave_part("sine_rx") == "sine part of the wave, about x"
+    assert wave_part("offset") == ""
