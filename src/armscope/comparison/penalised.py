@@ -52,7 +52,8 @@ class HeldColumns:
     @property
     def fixed(self) -> HeldColumns:
         """Without what is drawn."""
-        return self._not_drawn if self.drawn else self  # kept in itself, it would outlive its use until garbage is sought
+        # itself kept in itself would outlive its use until garbage is looked for
+        return self._not_drawn if self.drawn else self
 
     @functools.cached_property
     def _not_drawn(self) -> HeldColumns:
