@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.calibration.state import State
-from armscope.check.constants import LEADING
+from armscope.check.plain_constants import LEADING
 from armscope.check.plain_errors import PlainErrors
 from armscope.check.suspicion import APPROACH, Suspicion
 from armscope.recordings import Recordings

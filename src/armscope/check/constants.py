@@ -70,6 +70,11 @@ class TrialRules(Constants):
     lever_mm: float = constant(
         30.0, "of a tool, from which it matters where a payload sits", "judgement: a thick flange", unit="mm"
     )
+    tool_read_otherwise: float = constant(
+        0.1,
+        "of how far a stated tool is from the points, that another order or sign of its numbers leaves at most",
+        "judgement: an arm's own errors move a tool by a millimetre or two, another order by centimetres",
+    )
     exchanged: float = constant(
         10,
         "times the usual misfit beyond which two rows may have exchanged their points",
@@ -245,55 +250,7 @@ class WrongGravity(Constants):
     )
 
 
-@dataclass(frozen=True)
-class Leading(Constants):
-    """When a column of the side of approach has the wrong sign."""
-
-    standard_errors: float = constant(
-        10.0,
-        "below zero at which play is told as one of the wrong sign",
-        "measured: of 11 simulated tables with such columns two had signs turned round, which were 25 and 94 below; no "
-        "joint of the others was by more than 2",
-    )
-    both_sides: float = constant(
-        1.5, "between two rows' sides from which a joint is approached from both", "derived: sides are -1 and +1"
-    )
-
-
-@dataclass(frozen=True)
-class PlainFit(Constants):
-    """How what joints turn by is fitted beside a plain arm's errors."""
-
-    rank: float = constant(1e-9, "share of the largest, below which a direction is rounding", "judgement: far above it")
-    apart: float = constant(
-        1e6, "condition beyond which joints are not told apart", "judgement: a part in a thousand of each is left"
-    )
-
-
-@dataclass(frozen=True)
-class Settling(Constants):
-    """When rows are told in which the arm had not come to rest."""
-
-    rows: int = constant(600, "that are looked at", "judgement: what most rows show needs few; time", unit="rows")
-    moves_rad: float = constant(0.02, "between rows (RMS), from which a joint moves", "judgement: a degree", unit="rad")
-    standard_errors: float = constant(
-        8.0, "of a share that is told", "judgement: what a plain arm does not have is in them, too"
-    )
-    nats: float = constant(
-        20.0,
-        "by which what is left follows the motion rather than its side",
-        "judgement: play of a joint that was not recorded has the side",
-        unit="nats",
-    )
-    most: float = constant(
-        0.5, "of what a plain arm leaves (mean square), below which it is no hint", "judgement: most of it"
-    )
-
-
 TRIALS = TrialRules()
-SETTLING = Settling()
-PLAIN = PlainFit()
-LEADING = Leading()
 OTHER_ARMS = OtherArms()
 TABLE = TableRules()
 QUANTITIES = Quantities()

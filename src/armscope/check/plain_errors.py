@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.calibration.model import set_up
 from armscope.calibration.state import Posed, State
-from armscope.check.constants import PLAIN
+from armscope.check.plain_constants import PLAIN
 from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings
 from armscope.robot import Arm, position_jacobian

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.calibration.state import State
-from armscope.check.constants import SETTLING
+from armscope.check.plain_constants import SETTLING
 from armscope.check.plain_errors import PlainErrors
 from armscope.check.suspicion import SETTLED, Suspicion
 from armscope.core.numerals import rounded

@@ -22,6 +22,7 @@ from armscope.check.nominal_arms import better_arm
 from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
 from armscope.check.settling import not_at_rest
+from armscope.check.stated_tool import tool_stated_otherwise
 from armscope.check.suspicion import Suspicion
 from armscope.check.targets import named_row_by_row, two_reflectors
 from armscope.core.averages import rms_distance
@@ -88,7 +89,7 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
             + not_at_rest(arm, recordings, state)
             + rows_far_off(arm, recordings, _placed_by_most)
         )
-        found += payload_at_the_flange(arm, recordings, state)
+        found += payload_at_the_flange(arm, recordings, state) + tool_stated_otherwise(arm, state)
         from armscope.check.orientations import orientation_mistakes  # imports the effects, which a refusal needs not
 
         turned = orientation_mistakes(rows, state, some.orientation)
