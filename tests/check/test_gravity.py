@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from armscope.check.report import check, what_forbids
 from armscope.check.suspicion import GRAVITY
@@ -58,3 +59,15 @@ def test_an_arm_on_a_wall_described_as_upright_is_told_which_way_things_fall(axi
     (text,) = [each.text() for each in check(table, arm).suspicions if each.kind == GRAVITY]
     assert "[0, 0, -9.81], joints that give way explain" in text
     assert "--estimate-gravity" in text
+
+
+@pytest.mark.parametrize("degrees", [8, 20, 40])
+def test_an_arm_on_a_slope_described_as_upright_is_asked_how_it_leans(degrees: float) -> None:
+    """Along the base's axes alone, 20 degrees went unasked. Here the description leans, and the arm does not."""
+    arm = load_arm(EXAMPLES / "five-effects" / "robot.yaml")
+    table = read_recordings(EXAMPLES / "five-effects" / "recordings.csv", arm.n_motors)
+    leaning = Rotation.from_rotvec(np.radians(degrees) * np.array([0.6, 0.8, 0.0])).apply(arm.gravity)
+    (text,) = [each.text() for each in check(table, replace(arm, gravity=leaning)).suspicions if each.kind == GRAVITY]
+    assert f"leans by {degrees} degrees" in text
+    told = np.array([float(each) for each in text.partition("[")[2].partition("]")[0].split(",")])
+    assert np.degrees(np.arccos(told @ arm.gravity / np.linalg.norm(told) / 9.81)) < 1

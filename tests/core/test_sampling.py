@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.core.sampling import in_one_stretch, spread_evenly
+from armscope.core.sampling import in_one_stretch, spread_evenly, spread_over_a_sphere
 
 
 @pytest.mark.parametrize(("count", "most"), [(10, 4), (3, 7), (1, 1), (1000, 400)])
@@ -21,3 +21,11 @@ def test_a_stretch_takes_what_its_numbers_take(numbers):
     taken = values[in_one_stretch(rows)]
     np.testing.assert_array_equal(taken, values[rows])
     assert np.shares_memory(taken, values) == (np.ptp(rows) == len(rows) - 1)
+
+
+def test_points_on_a_sphere_are_evenly_spread():
+    points = spread_over_a_sphere(300)
+    np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1)
+    np.testing.assert_allclose(points.T @ points, 100 * np.eye(3), atol=1)
+    cosines = points @ points.T - 2 * np.eye(300)
+    assert np.degrees(np.arccos(cosines.max(axis=1))).min() > 8

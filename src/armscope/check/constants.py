@@ -243,8 +243,14 @@ class WrongGravity(Constants):
         "of it that may at most be explained along gravity",
         "judgement: poses in which either way explains as much tell no direction",
     )
-    aside: float = constant(0.5, "of them if it points aside", "judgement: most; in view, a wobble has 0.28, walls 0.9")
-    another: float = constant(0.1, "of its size by which directions differ that are tried", "judgement: six degrees")
+    leaning: float = constant(
+        0.5,
+        "of what stated gravity leaves that gravity on a slope may leave at most",
+        "judgement: most of it; nothing else that gives way follows the first joint as a slope's load does",
+    )
+    ways: int = constant(300, "directions that are tried", "derived: 12 degrees apart", unit="directions")
+    sides: int = constant(8, "nearer ones that are tried around the best", "judgement: one of them is nearer")
+    nearest_rad: float = constant(0.005, "down to which they are", "judgement: a third of a degree", unit="rad")
     left_of_column: float = constant(
         1e-3, "share of a column that geometry and drives must leave", "judgement: rounding is far below"
     )
