@@ -1,16 +1,22 @@
 """Files in the layout of a controller: read as its maker reads them, they put the tool in the right place."""
 
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from scipy.spatial.transform import Rotation
 
+from armscope.report.pages.diagnosis import write_work_order
+from armscope.report.subject import Subject
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
 from armscope.verdict.controllers import UR_JOINTS, ur_kinematics
 from armscope.verdict.effects import Parameter
+from tests.report import verdicts
 from tests.report.verdicts import found
 from tests.verdict.test_corrections import saying
 
@@ -67,3 +73,14 @@ def test_zeros_and_rows_that_were_found_have_their_signs_in_the_file() -> None:
 @pytest.mark.parametrize("name", ["irb120", "panda", "kr6-r900"])
 def test_other_makers_arms_have_no_such_file(name: str) -> None:
     assert ur_kinematics(saying(build_arm(nominal_description(name)))) is None
+
+
+def test_who_loads_the_file_is_told_not_to_reset_zeros_as_well(tmp_path: Path) -> None:
+    """Both were advised of one arm: 0.71 mm by the zeros alone, 1.25 mm by both, of 1.38."""
+    case = verdicts.single()
+    model = replace(case.verdict.model, arm=ur5e())
+    verdict = replace(case.verdict, model=model)
+    write_work_order(Subject(verdict), tmp_path)
+    for name in ("ur_kinematics.yaml", "work-order.html"):
+        assert "never as well" in (tmp_path / name).read_text()
+    assert set(yaml.safe_load((tmp_path / "ur_kinematics.yaml").read_text())) == {"kinematics"}

@@ -84,6 +84,19 @@ def test_what_is_left_is_called_noise_only_where_it_is():
         assert "not yet explained" in said
 
 
+def test_what_is_no_larger_than_noise_is_not_called_more_than_it():
+    """It was: "0.0262 mm remain, more than noise", with 0.0277 mm of noise on the same page."""
+    curve = found("unknown", "joint 2", Parameter("reaches", "rad", 7e-4, 1e-5), share=0.9)
+    size = {"residual_after_mm": 0.026, "noise_mm": 0.028}
+    left = {"unexplained": Unexplained(True, "joint 2", "angle of joint 2", 0.05)}
+    assert headline(verdicts.case(effects=(curve,), **left, **size).verdict).endswith(
+        "; the 0.026 mm that remain beside it are noise."
+    )
+    told = Notice("model error", "What is left is more than noise, and no effect explains it.")
+    said = headline(verdicts.case(effects=(curve,), notices=(told,), **left, **size).verdict)
+    assert "no more than noise in size, yet with a pattern that is not yet explained" in said
+
+
 def test_what_is_more_than_noise_stands_beside_what_noise_alone_would_leave():
     told = Notice("model error", "What is left is more than noise, and no effect explains it.")
     few = {"notices": (told,), "residual_after_mm": 0.034, "noise_mm": 0.012}

@@ -275,9 +275,10 @@ def as_json(content: Any) -> str:
     return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def write_yaml(path: Path | str, content: Any) -> None:
-    """Write YAML in the order of ``content``."""
-    write_text(path, yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
+def write_yaml(path: Path | str, content: Any, comment: str = "") -> None:
+    """Write YAML in the order of ``content``, below a comment of one line."""
+    text = yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120)
+    write_text(path, f"# {comment}\n{text}" if comment else text)
 
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)

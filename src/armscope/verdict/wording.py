@@ -234,12 +234,16 @@ def percent(share: float) -> str:
 
 
 def still_open(verdict: Verdict) -> str:
-    """What remains where that is more than noise, beside what noise alone would leave; a clause."""
+    """What remains where not all is explained, beside what noise alone would leave; a clause."""
     left, noise = verdict.residual_after_mm, verdict.noise_mm
     named = any(p.name == "scatter" for effect in verdict.effects for p in effect.parameters)
     remain = f"{millimetres(left)} remain{', the scatter included' if named else ''}"
     if not noise < left:
-        return f"{remain}, more than noise and not yet explained"
+        structured = any(notice.kind == "model error" for notice in verdict.notices)
+        without_a_name = any(effect.nameless for effect in verdict.effects)
+        if without_a_name and not structured:
+            return f"the {millimetres(left)} that remain beside it are noise"
+        return f"{remain}, no more than noise in size, yet with a pattern that is not yet explained"
     at_most = " at most" if "residuals" in verdict.noise_source else ""
     return f"{remain}, where noise alone would leave {millimetres(noise)}{at_most}: something is not yet explained"
 

@@ -19,7 +19,7 @@ from armscope.report.sectioning import write_sections
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
-from armscope.verdict.controllers import ur_kinematics
+from armscope.verdict.controllers import ZEROS_IN_IT, ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
@@ -84,7 +84,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     for name, table in corrected.items():
         write_table(folder / name, table)
     if kinematics is not None:
-        write_yaml(folder / UR, kinematics)
+        write_yaml(folder / UR, kinematics, ZEROS_IN_IT)
     dh = verdict.model.arm.description.dh
     another = another_model(verdict)
     tasks, by_calibration = () if another else subject.order.tasks, subject.order.by_calibration
@@ -106,6 +106,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
         "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
+        "kinematics": f"{UR}: {ZEROS_IN_IT}" if kinematics else "",
         "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
