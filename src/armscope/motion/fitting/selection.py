@@ -252,13 +252,16 @@ def named_first(search: Search, best: Hypothesis) -> Hypothesis:
         if candidate.family != UNKNOWN or not candidate.special_cases or effect not in best.chosen:
             continue
         base = search.without(best, [effect.candidate])
+        others = set(range(len(search.space.candidates))) - candidate.special_cases
         named = base
         for _ in range(NOISE.names_for_a_curve):
-            others = set(range(len(search.space.candidates))) - candidate.special_cases
             better = search.additions(named, 1, others)
             if not better or better[0].log_posterior <= named.log_posterior:
                 break
             named = better[0]
+        for added in named.chosen[len(base.chosen) :]:
+            again = search.additions(search.without(named, [added.candidate]), 1, others)
+            named = max([named, *again], key=lambda hypothesis: hypothesis.log_posterior)
         worth = best.log_posterior - base.log_posterior
         most = NOISE.nearly_all if candidate.is_curve else NOISE.nearly_all_of_a_law
         if named.log_posterior - base.log_posterior > most * worth:
