@@ -17,6 +17,7 @@ from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.clocks import parted_where_they_differ, turned_where_not_late
 from armscope.motion.fitting.gains import gain_of, meeting_gain
+from armscope.motion.fitting.hoses import offsets_for_cables
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined, sits_nowhere
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -182,7 +183,8 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = turned_where_not_late(search, settled(search, named_first(search, best)), rows.layout.placed)
+    best = offsets_for_cables(search, settled(search, named_first(search, best)), rows.layout.placed)
+    best = turned_where_not_late(search, best, rows.layout.placed)
     best = parted_where_they_differ(search, best, rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
