@@ -1,7 +1,7 @@
 """Offsets that a curve of the angle holds: a hose pulls one way at one end of its joint's range, another at the other.
 
-Somewhere in the range it rests. A curve that pulls one way nearly all over it is an offset and what little follows the
-angle beside it: two causes by one name, for the price of one.
+Somewhere in the range it rests. A curve that pulls one way nearly all over it, and says hardly more than an offset, is
+one.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from armscope.inference.search import Search
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.layout import OWN
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def offsets_for_cables(search: Search, best: Hypothesis, placed: Sequence[PlacedCause]) -> Hypothesis:
-    """Offsets in the place of cables that are mostly that, unless what is beyond is worth the price of a name.
+    """Offsets in the place of cables that are mostly that, where the evidence hardly tells one from the other.
 
     Args:
         search: on the hypothesis' problem.
@@ -26,7 +27,7 @@ def offsets_for_cables(search: Search, best: Hypothesis, placed: Sequence[Placed
         placed: what competes.
 
     Returns:
-        The hypothesis, or one that falls short of it by less than an offset's price for each that took a cable's place.
+        The hypothesis, or one that is about as likely.
     """
     offsets = {cause.joints: n for n, cause in enumerate(placed) if cause.cause is catalogue.OFFSET}
     for effect in best.chosen:
@@ -37,7 +38,7 @@ def offsets_for_cables(search: Search, best: Hypothesis, placed: Sequence[Placed
         sizes = range(len(search.problem.sizes))
         tried = [search.evaluated((*rest.chosen, SelectedEffect(offset, size)), rest) for size in sizes]
         told = max(tried, key=by_posterior)
-        if told.log_posterior > best.log_posterior - search.problem.cost(offset):
+        if told.log_posterior > best.log_posterior - INDISTINGUISHABLE_NATS:
             best = told
     return best
 
