@@ -58,12 +58,8 @@ class LibraryRules(Constants):
         "judgement: beyond the change of sides",
         unit="widths",
     )
-    stribeck_widths: int = constant(
-        5, "speeds that are scanned", "judgement: they follow in steps of two", unit="speeds"
-    )
-    between_speeds: float = constant(
-        0.5, "relative change of a scanned speed that its cause allows for", "derived: half a step of the scan"
-    )
+    stribeck_widths: int = constant(5, "speeds that are scanned", "judgement: in steps of two", unit="speeds")
+    between_speeds: float = constant(0.5, "relative, of a scanned speed, allowed for", "derived: half a scan's step")
     delays_s: tuple[float, ...] = constant(
         (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
     )
@@ -153,6 +149,9 @@ class PriorRules(Constants):
         0.1,
         "by which a drive gain is off where no uncertainty is stated",
         "measured: two published sets of the UR10e's gains differ by 13 to 49 %",
+    )
+    torque_gains: tuple[float, ...] = constant(
+        (0.0, 0.01, 0.03), "by which recorded torques may each be off unnamed", "judgement: calibrated, or not"
     )
     unsure_gain: float = constant(
         0.3,

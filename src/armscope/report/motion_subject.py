@@ -60,9 +60,9 @@ class MotionSubject:
 
     @property
     def gains_fitted(self) -> str:
-        """What to do about torque constants that were fitted beside the causes; empty where there are none."""
-        selected = self.found.selected
-        return factors_in_words(selected.coefficients[selected.rows.layout.gains])
+        """What to do about gains that were fitted beside the causes; empty where there are none."""
+        selected, layout = self.found.selected, self.found.selected.rows.layout
+        return factors_in_words(selected.coefficients[layout.gains], layout.with_gains)
 
     @cached_property
     def held(self) -> HeldOutRows:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.gains import gain_of, meeting_gain
@@ -17,6 +20,7 @@ from armscope.motion.fitting.selection import at_own_gain, select_causes, weighe
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
+from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.timing import stretches
 from tests.motion.moving import ROBOT, moved, robot
 
@@ -66,3 +70,26 @@ def test_columns_and_fit_meet(start: SelectedCauses) -> None:
 def test_a_step_from_nearby_leaves_a_hundredth_of_the_way(start: SelectedCauses) -> None:
     near = at(start, at_own_gain(start).rows.gain * [1.03, 0.98, 1.02])
     assert apart(at(near, meeting_gain(near))) < 0.01 * apart(near)
+
+
+def test_torques_that_are_all_read_a_little_wrong_are_no_masses() -> None:
+    """Shares of the links' masses stood for that, so wide that beside them no single link had a name."""
+    recorded = moved(robot(), 6, runs=3)
+    off = np.array([0.03, -0.03, 0.03])
+    wrong = replace(recorded, effort=recorded.effort * (1 + off))
+    selected = diagnose_motion(robot(), wrong, MotionSettings(cutoff=10.0)).selected
+    families = [family.name for family in selected.space.families]
+    masses, weights, gains = (families.index(name) for name in ("masses", "link masses", "gains"))
+    search = Search.on(selected.problem)
+
+    def best_without(*held: int) -> Hypothesis:
+        """No name, and the sizes of the backgrounds that suit best, none of some of them."""
+        sizes = [range(1 if n in held else family.sizes) for n, family in enumerate(selected.space.families)]
+        tried = (search.evaluated((), selected.best, background) for background in itertools.product(*sizes))
+        return max(tried, key=lambda each: each.log_posterior)
+
+    by_gains, by_masses = best_without(masses, weights), best_without(gains)
+    assert by_gains.log_posterior > by_masses.log_posterior + 50
+    layout = selected.rows.layout
+    fitted = by_gains.means(layout.gains) / selected.problem.scale[layout.gains]
+    assert fitted == pytest.approx(off, abs=0.01)

@@ -251,7 +251,7 @@ class _Piece:
         regressor = None if self.regressor is None else self.low(self.regressor)
         for j in range(m):
             of_joint, where = own[j]
-            gain = [self.moment.read[:, j]] if layout.with_gains and self.moment.read is not None else []
+            gain = [self.moment.read[:, j]] if len(layout.gains) and self.moment.read is not None else []
             made = [self.low(np.column_stack([self.background[:, j], *of_joint, *gain, self.rounded[:, j]]))]
             index = [OWN * j + np.arange(OWN), *where, layout.gains[j : j + 1] if gain else layout.gains]
             index.append(layout.response)

@@ -17,6 +17,7 @@ from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.clocks import parted_where_they_differ, turned_where_not_late
 from armscope.motion.fitting.gains import gain_of, meeting_gain
+from armscope.motion.fitting.hoses import offsets_for_cables
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.refining import refined, sits_nowhere
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -182,7 +183,8 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = turned_where_not_late(search, settled(search, named_first(search, best)), rows.layout.placed)
+    best = offsets_for_cables(search, settled(search, named_first(search, best)), rows.layout.placed)
+    best = turned_where_not_late(search, best, rows.layout.placed)
     best = parted_where_they_differ(search, best, rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
@@ -252,13 +254,16 @@ def named_first(search: Search, best: Hypothesis) -> Hypothesis:
         if candidate.family != UNKNOWN or not candidate.special_cases or effect not in best.chosen:
             continue
         base = search.without(best, [effect.candidate])
+        others = set(range(len(search.space.candidates))) - candidate.special_cases
         named = base
         for _ in range(NOISE.names_for_a_curve):
-            others = set(range(len(search.space.candidates))) - candidate.special_cases
             better = search.additions(named, 1, others)
             if not better or better[0].log_posterior <= named.log_posterior:
                 break
             named = better[0]
+        for added in named.chosen[len(base.chosen) :]:
+            again = search.additions(search.without(named, [added.candidate]), 1, others)
+            named = max([named, *again], key=lambda hypothesis: hypothesis.log_posterior)
         worth = best.log_posterior - base.log_posterior
         most = NOISE.nearly_all if candidate.is_curve else NOISE.nearly_all_of_a_law
         if named.log_posterior - base.log_posterior > most * worth:

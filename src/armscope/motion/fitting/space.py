@@ -73,6 +73,10 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         sigma = np.where(np.isnan(unsure), PRIOR.gain, unsure)
         families.append(ToleranceFamily("gains", layout.gains, sigma, (0.0, 1.0)))
         starts = [(*start, 1) for start in starts]
+    else:
+        tolerance, shares = np.ones(layout.arm.n_motors), PRIOR.torque_gains
+        families.append(ToleranceFamily("gains", layout.gains, tolerance, shares, is_priced=True, takes_one=True))
+        starts = [(*start, 0) for start in starts]
     return ModelSpace(
         frames=layout.frames,
         families=tuple(families),

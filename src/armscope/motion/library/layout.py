@@ -34,7 +34,8 @@ class TorqueLayout:
     Attributes:
         arm: the arm.
         placed: the causes that compete.
-        with_gains: whether torques come from currents, whose gains are known to some percent.
+        with_gains: whether torques come from currents, whose gains are known to some percent; else they are read true,
+            or all of them a little wrong.
         width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
     """
 
@@ -96,8 +97,14 @@ class TorqueLayout:
 
     @property
     def gains(self) -> Indices:
-        """(m,) or none: shares of each joint's torque."""
-        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if self.with_gains else 0)
+        """(m,) shares of each joint's torque; none where no causes compete."""
+        compete = self.with_gains or bool(self.placed)
+        return len(self.own) + len(self.inertial) + np.arange(self.arm.n_motors if compete else 0)
+
+    @property
+    def of_gains(self) -> str:
+        """What is off by a gain, in words."""
+        return "torque constants" if self.with_gains else "recorded torques"
 
     @functools.cached_property
     def scaling(self) -> list[tuple[int, int]]:

@@ -179,7 +179,6 @@ def fitted_model(
     """
     arm = layout.arm
     stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
-    gains = coefficients[layout.gains] if layout.with_gains else np.zeros(arm.n_motors)
     named = {int(column) for number, _ in chosen for column in layout.columns[number]}
     heavier = [int(column) for column in layout.link_masses[0] if int(column) not in named]
     made, shares = layout.made_of_masses
@@ -190,7 +189,7 @@ def fitted_model(
         kind="current" if layout.with_gains else "torque",
         joints=stated + coefficients[layout.own].reshape(-1, OWN),
         inertial=arm.inertial + layout.inertial_scale * (coefficients[layout.inertial] + in_proportion),
-        gains=gains,
+        gains=coefficients[layout.gains] if len(layout.gains) else np.zeros(arm.n_motors),
         causes=tuple(
             FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
             for number, covariance in chosen

@@ -254,7 +254,7 @@ def _held_near(selected: SelectedCauses) -> str:
     layout, used = selected.rows.layout, selected.best.columns
     gains = bool(np.isin(layout.gains, used).any())
     masses = bool(np.isin(layout.masses, used).any()) or not gains
-    return f"{' and '.join(['masses'] * masses + ['torque constants'] * gains)} near the stated"
+    return f"{' and '.join(['masses'] * masses + [layout.of_gains] * gains)} near the stated"
 
 
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:

@@ -25,6 +25,7 @@ from armscope.motion.summary.doubts import determined
 from armscope.motion.summary.intervals import sureness
 from armscope.motion.summary.judgement import cause_parameters
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import capitalised
 
 FITTED_GAINS = "fitted gains"
 """Kind of the notice that gains without a name are part of the model."""
@@ -83,22 +84,29 @@ def _freed(selected: SelectedCauses, joints: Collection[int]) -> tuple[SelectedC
 
 def told_gains(selected: SelectedCauses) -> list[Notice]:
     """What is to be entered for gains that are part of the model without a name, where they matter."""
-    gains = selected.coefficients[selected.rows.layout.gains]
+    layout = selected.rows.layout
+    gains = selected.coefficients[layout.gains]
     if np.max(np.abs(gains), initial=0.0) < NAMING.gain_that_matters:
         return []
+    known = ", within what is known of them" if layout.with_gains else " by a factor each"
     text = (
-        "Torque constants are fitted along, within what is known of them, and the model holds only with these: "
-        f"{factors_in_words(gains)}"
+        f"{capitalised(layout.of_gains)} are fitted along{known}, and the model holds only with these: "
+        f"{factors_in_words(gains, layout.with_gains)}"
     )
     return [Notice(FITTED_GAINS, text)]
 
 
-def factors_in_words(gains: Array) -> str:
+def factors_in_words(gains: Array, by_currents: bool = True) -> str:
     """What to do about gains without a name; empty where all are as stated.
 
     Args:
         gains: (m,) shares by which recorded torque exceeds the true one; 0 of those that have a name.
+        by_currents: whether torques come from currents.
+
+    Returns:
+        A sentence or nothing.
     """
+    what = "torque constants, and so the recorded torques," if by_currents else "the recorded torques"
     factors = [f"{1 / (1 + gain):.3f} (joint {j})" for j, gain in enumerate(gains, start=1)]
     told = [each for each in factors if not each.startswith("1.000 ")]
-    return f"multiply torque constants, and so the recorded torques, by {', '.join(told)}." if told else ""
+    return f"multiply {what} by {', '.join(told)}." if told else ""

@@ -84,6 +84,7 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         "apart": error_in_words(with_masses.whole) if apart else "",
         "urdf": URDF,
         "gains": capitalised(subject.gains_fitted) if along else "",
+        "of_gains": subject.found.selected.rows.layout.of_gains,
         "minor": [cause.title for cause in minor if cause not in told],
         "now": error_in_words(held_out.stated),
         "background": error_in_words(background.whole),
@@ -118,7 +119,7 @@ def pays(before: float, after: float) -> bool:
 
 
 def fitted_along_matters(subject: MotionSubject) -> bool:
-    """Whether the promised errors hold only with masses and torque constants as fitted: where they change them."""
+    """Whether the promised errors hold only with masses and gains as fitted: where they change them."""
     if not subject.masses_fitted and not subject.gains_fitted:
         return False
     before, with_masses = (step.held_out for step in subject.verdict.waterfall[:2])
@@ -127,7 +128,9 @@ def fitted_along_matters(subject: MotionSubject) -> bool:
 
 def along_in_words(subject: MotionSubject) -> str:
     """What was fitted beside the causes."""
-    names = ["masses"] * subject.masses_fitted + ["torque constants"] * bool(subject.gains_fitted)
+    names = ["masses"] * subject.masses_fitted + [subject.found.selected.rows.layout.of_gains] * bool(
+        subject.gains_fitted
+    )
     return " and ".join(names)
 
 
