@@ -92,3 +92,14 @@ def test_a_jump_while_the_arm_is_measured_is_rarer_than_one_between_sessions() -
     assert within.multiplicity == 7 * FORM.sessions_per_slip
     days = replace(table, run=np.repeat(["1", "2"], 20))
     assert {placed.multiplicity for placed in ZERO_SHIFT.place(arm, days)} == {1}
+
+
+@pytest.mark.parametrize("rows_before", [4, 7])
+def test_a_jump_some_rows_after_a_run_begins_is_told_where_it_was(rows_before: int) -> None:
+    """Moments nearer than eight rows to a run's end were never tried: it came with the run, or rows late."""
+    run = np.where(np.arange(ROWS) < JUMPS_AT - rows_before, "1", "2")
+    verdict = said(WITHOUT_WRIST, jumped(3, 4e-4), seed=12, run=run)
+    assert drifts(verdict) == [("zero_shift", "joint 3")]
+    (found,) = (e for e in verdict.effects if e.effect == "zero_shift")
+    assert {p.name: p.value for p in found.parameters}["row"] == JUMPS_AT + 1
+    assert verdict.noise_mm < 1.02 * 1e3 * NOISE_M

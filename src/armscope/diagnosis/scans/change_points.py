@@ -36,21 +36,22 @@ def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]
 def _jumps_at(beside: ModelRows, given: Sequence[Hypothesis], locations: Sequence[str]) -> Iterator[Placed]:
     """The same at some locations, any of which may have jumped: all pay for all of their moments."""
     context, inside = beside.context, beside.inside
-    pieces = list(pieces_of(context.recordings))
+    pieces = list(pieces_of(context.recordings, SCANS.nearest_edge))
     tried = len(locations) * sum(len(cuts) for _, cuts in pieces)
     builds = {location: _jump_of(context, location) for location in locations}
     best: dict[tuple[str, int], tuple[float, int]] = {}
     for rows, cuts in pieces:
         terms = {location: build(int(rows[0]), 1).terms for location, build in builds.items()}
         sums = step_sums(beside, rows, cuts, [each for of_one in terms.values() for each in of_one])
+        told = (cuts >= SCANS.shortest_piece) & (cuts <= len(rows) - SCANS.shortest_piece)
         start = 0
         for location in locations:
             own = slice(start, start := start + len(terms[location]))
             block = ColumnBlocks(sums.own[:, own, own], sums.cross[:, :, own], sums.b[:, own])
             for number, hypothesis in enumerate(given):
                 scores = scores_given(context.problem, hypothesis, block, inside)
-                at = int(np.argmax(scores))
-                promising = float(scores[at]), int(rows[cuts[at]])
+                # a jump must show far from either end; then it may have been nearer to one
+                promising = float(scores[told].max()), int(rows[cuts[np.argmax(scores)]])
                 best[location, number] = max(best.get((location, number), promising), promising)
     for (location, _), (score, row) in best.items():
         if score > SCANS.worth_a_look + np.log(tried):
@@ -83,7 +84,7 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
     """
     run = placed.terms[0].products[0].driver.arguments[1]
     build, recordings = _jump_of(context, placed.location), context.recordings
-    for rows, cuts in pieces_of(recordings):
+    for rows, cuts in pieces_of(recordings, SCANS.nearest_edge):
         if str(recordings.run[rows[0]]) != run:
             continue
         sums = step_sums(ModelRows(context, without.columns), rows, cuts, build(int(rows[0]), 1).terms)
@@ -99,8 +100,8 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
     return 0.0
 
 
-def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
-    """Per run: its rows in order of time, and the positions in that order before which a jump may lie."""
+def pieces_of(recordings: Recordings, edge: int = SCANS.shortest_piece) -> Iterator[tuple[Indices, Indices]]:
+    """Per run: its rows in order of time, and the positions in that order before which a jump may lie, off its ends."""
     for run in np.unique(recordings.run):
         rows = np.flatnonzero(recordings.run == run)
         if recordings.time is not None:
@@ -108,11 +109,8 @@ def pieces_of(recordings: Recordings) -> Iterator[tuple[Indices, Indices]]:
                 continue
             rows = rows[np.argsort(recordings.time[rows], kind="stable")]
         if len(rows) >= 2 * SCANS.shortest_piece:
-            count = min(len(rows) - 2 * SCANS.shortest_piece + 1, SCANS.most_times)
-            yield (
-                rows,
-                np.unique(np.linspace(SCANS.shortest_piece, len(rows) - SCANS.shortest_piece, count).astype(np.intp)),
-            )
+            count = min(len(rows) - 2 * edge + 1, SCANS.most_times)
+            yield rows, np.unique(np.linspace(edge, len(rows) - edge, count).astype(np.intp))
 
 
 class ModelRows:

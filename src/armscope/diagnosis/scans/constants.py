@@ -22,6 +22,12 @@ class ScanBudget(Constants):
     shortest_piece: int = constant(
         8, "on either side of a jump", "judgement: fewer do not tell a jump from bad shots", unit="rows"
     )
+    nearest_edge: int = constant(
+        3,
+        "of a run to which a jump that shows farther from it may turn out to be",
+        "judgement: the rows before it must have been at one place",
+        unit="rows",
+    )
     most_times: int = constant(600, "of a jump that compete", "judgement: time", unit="moments")
     lengths_of_pauses: int = constant(
         20, "of a pause that compete at each row", "convention: one number's price, ln 20", unit="lengths"
