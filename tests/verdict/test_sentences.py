@@ -90,7 +90,7 @@ def test_what_is_no_larger_than_noise_is_not_called_more_than_it():
     size = {"residual_after_mm": 0.026, "noise_mm": 0.028}
     left = {"unexplained": Unexplained(True, "joint 2", "angle of joint 2", 0.05)}
     assert headline(verdicts.case(effects=(curve,), **left, **size).verdict).endswith(
-        "; the 0.026 mm that remain beside it are noise."
+        "; the 0.026 mm that remain are noise."
     )
     told = Notice("model error", "What is left is more than noise, and no effect explains it.")
     said = headline(verdicts.case(effects=(curve,), notices=(told,), **left, **size).verdict)

@@ -242,7 +242,7 @@ def still_open(verdict: Verdict) -> str:
         structured = any(notice.kind == "model error" for notice in verdict.notices)
         without_a_name = any(effect.nameless for effect in verdict.effects)
         if without_a_name and not structured:
-            return f"the {millimetres(left)} that remain beside it are noise"
+            return f"the {millimetres(left)} that remain are noise"
         return f"{remain}, no more than noise in size, yet with a pattern that is not yet explained"
     at_most = " at most" if "residuals" in verdict.noise_source else ""
     return f"{remain}, where noise alone would leave {millimetres(noise)}{at_most}: something is not yet explained"
