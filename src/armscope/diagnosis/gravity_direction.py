@@ -26,7 +26,8 @@ from armscope.inference.problem import Problem, build_problem
 from armscope.measurement import robust
 from armscope.measurement.noise import Noise
 from armscope.measurement.row_weights import RowWeights
-from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, constants, springs
+from armscope.physics.backgrounds import ELASTIC, FAMILIES, GEOMETRIC, TRANSMISSION, constants, gear_waves, springs
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings
@@ -111,7 +112,7 @@ class _NegativeLogEvidence:
         self.known: dict[tuple[float, ...], float] = {}
 
     def __call__(self, tilt: Array) -> float:
-        """Minus the evidence, nats, at the best sizes of the geometric and the elastic background."""
+        """Minus the evidence, nats, at the best sizes of geometric, elastic and gears' background."""
         key = tuple(float(t) for t in tilt)
         if key not in self.known:
             self.known[key] = self._evaluated(tilt)
@@ -120,7 +121,12 @@ class _NegativeLogEvidence:
     def _evaluated(self, tilt: Array) -> float:
         arm = turned(self.start.arm, tilt)
         # columns of families that have no part in any of the sizes below would be formed a hundred times for nothing
-        everywhere = {GEOMETRIC: constants(arm), ELASTIC: springs(arm, self.recordings)}
+        everywhere = {
+            GEOMETRIC: constants(arm),
+            ELASTIC: springs(arm, self.recordings),
+            # a wave of a gear would be a load of another direction
+            TRANSMISSION: gear_waves(self.recordings, PLAUSIBLE.waves),
+        }
         space = build_model_space(self.frames, [everywhere.get(family, []) for family in FAMILIES], [])
         model = FittedModel(arm, self.start.bases, self.start.tools)
         blocks = np.zeros(len(self.recordings), dtype=np.intp)
@@ -128,8 +134,9 @@ class _NegativeLogEvidence:
             space, total(normal_equations_by_block(space.layout, model, self.recordings, self.weights, blocks)), 0.0
         )
         start = max(made.mismatch, 1e-4)
-        geometric, elastic, *others = (range(family.sizes) for family in space.families)
-        sizes = [(g, e, *(0 for _ in others)) for g in (0, geometric[-1]) for e in elastic[1:]]
+        geometric, elastic, gears, *others = (range(family.sizes) for family in space.families)
+        small = [0 for _ in others]
+        sizes = [(g, e, w, *small) for g in (0, geometric[-1]) for e in elastic[1:] for w in gears]
         weighed = (evaluate(made, (), size, start) for size in sizes)
         return -max(each.log_posterior + _gives_along(made, each) for each in weighed)
 
