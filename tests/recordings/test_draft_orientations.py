@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.recordings.importing.draft import draft_mapping
+from armscope.recordings.importing.draft_orientations import COMPUTED
 from armscope.recordings.importing.tables import import_recordings
 
 ROTATIONS = Rotation.random(12, random_state=3)
@@ -60,5 +61,6 @@ def test_four_columns_of_another_length_are_no_quaternion(tmp_path):
 def test_three_angles_are_offered_and_read_right_when_taken(tmp_path, names, values):
     mapping = drafted(tmp_path, parts(values, names))
     assert "  # orientation:" in mapping
+    assert COMPUTED in mapping
     taken = mapping.replace("  # orientation:", "  orientation:")
     assert (imported(tmp_path, taken) * ROTATIONS.inv()).magnitude().max() < 1e-6

@@ -275,10 +275,14 @@ def as_json(content: Any) -> str:
     return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def write_yaml(path: Path | str, content: Any, comment: str = "") -> None:
-    """Write YAML in the order of ``content``, below a comment of one line."""
-    text = yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120)
-    write_text(path, f"# {comment}\n{text}" if comment else text)
+def as_yaml(content: Any) -> str:
+    """YAML in the order of ``content``."""
+    return str(yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
+
+
+def write_yaml(path: Path | str, content: Any) -> None:
+    """Write YAML in the order of ``content``."""
+    write_text(path, as_yaml(content))
 
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
@@ -290,10 +294,6 @@ def _plain(value: Any) -> Any:
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray | np.generic):
         return _plain(value.tolist())
-    if isinstance(value, np.generic):
-        return _plain(value.item())
-    if isinstance(value, float) and not np.isfinite(value):
-        return None
-    return value
+    return None if isinstance(value, float) and not np.isfinite(value) else value

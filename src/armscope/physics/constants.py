@@ -143,10 +143,7 @@ class PlausibleSizes(Constants):
         0.5, "error of a payload's mass as a share of the largest stated", "judgement: a gripper that was forgotten"
     )
     payload_centre_m: float = constant(
-        0.2,
-        "error of a payload's centre of mass",
-        "judgement: nobody states it, it counts as at the tool point; loads and grippers are two hands' widths long",
-        unit="m",
+        0.2, "error of a payload's centre of mass", "judgement: two hands' widths; nobody states where it is", unit="m"
     )
     learned_within: float = constant(
         3.0,
