@@ -275,14 +275,14 @@ def as_json(content: Any) -> str:
     return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def as_yaml(content: Any) -> str:
+def yaml_text(content: Any) -> str:
     """YAML in the order of ``content``."""
     return str(yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
 
 
 def write_yaml(path: Path | str, content: Any) -> None:
     """Write YAML in the order of ``content``."""
-    write_text(path, as_yaml(content))
+    write_text(path, yaml_text(content))
 
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)

@@ -11,7 +11,7 @@ import pandas as pd
 from markupsafe import Markup
 
 from armscope.core.averages import rms
-from armscope.core.files import as_yaml, write_table, write_text
+from armscope.core.files import write_table, write_text, yaml_text
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
@@ -84,7 +84,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     for name, table in corrected.items():
         write_table(folder / name, table)
     if kinematics is not None:
-        write_text(folder / UR, f"# {ZEROS_IN_IT}\n{as_yaml(kinematics)}")
+        write_text(folder / UR, f"# {ZEROS_IN_IT}\n{yaml_text(kinematics)}")
     dh = verdict.model.arm.description.dh
     another = another_model(verdict)
     tasks, by_calibration = () if another else subject.order.tasks, subject.order.by_calibration
