@@ -119,7 +119,7 @@ def _maximised(found: Excitation) -> str:
 
 
 def _tell(found: Excitation) -> None:
-    from armscope.poses.exciting.output import collisions_in_words
+    from armscope.poses.exciting.output import collision_notes
 
     before, after = found.before, found.after
     print(_maximised(found))
@@ -140,5 +140,5 @@ def _tell(found: Excitation) -> None:
         print(f"moves no motor, whatever the motion: {', '.join(shown.nothing)}")
     if shown.together:
         print(f"shows only as sums with others: {', '.join(shown.together)}")
-    for note in (*found.limits.assumed, collisions_in_words(found)):
+    for note in (*found.limits.assumed, *collision_notes(found)):
         print(f"note: {note}", file=sys.stderr)

@@ -112,7 +112,7 @@ def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
 
 
 def _tell(choice: Choice, source: str, noise: float) -> None:
-    from armscope.poses.output import body_in_words
+    from armscope.poses.body_words import surroundings_notes
 
     pool = choice.candidates
     refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
@@ -120,9 +120,7 @@ def _tell(choice: Choice, source: str, noise: float) -> None:
     print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
     if choice.targets.hidden:
         print(f"not told apart from the others: {', '.join(choice.targets.hidden)}")
-    notes = [f"the arm's body: {body_in_words(choice)}"]
-    notes += ["no --tracker: every pose counts as visible"] if choice.around.tracker is None else []
-    notes += ["no --floor-mm: the arm may reach below its base"] if choice.around.floor is None else []
+    notes = surroundings_notes(choice.targets.arm, choice.around)
     notes += [f"noise {noise * 1e3:g} mm per axis, assumed"] if source == "assumed" else []
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
