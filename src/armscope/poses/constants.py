@@ -130,4 +130,7 @@ class ChoosingRules(Constants):
     )
 
 
+UP = np.array([0.0, 0.0, 1.0])
+"""Of the base frame of an arm that stands."""
+
 BODY, DRAWING, CHOOSING = BodyRules(), CandidateRules(), ChoosingRules()

@@ -9,7 +9,7 @@ if they are thicker than the gap between them ever allows (short wrists, an elbo
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
-from armscope.poses.constants import BODY
+from armscope.poses.constants import BODY, UP
 from armscope.robot import Arm, Chain, chain
 
 
@@ -29,11 +29,13 @@ class Surroundings:
         radius: of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`).
         floor: height of a plane in the base frame below which nothing may be, m; None: there is none.
         tracker: (3,) where the tracker stands in the base frame, m; None: it sees everything.
+        up: (3,) of length one in the base frame: the way in which heights count.
     """
 
     radius: float | None = None
     floor: float | None = None
     tracker: Array | None = None
+    up: Array = field(default_factory=lambda: UP)
 
     def radius_of(self, arm: Arm) -> float:
         """Of the links, m."""
@@ -69,14 +71,14 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
     if around.tracker is not None:
         reasons[_hidden(body, frames.tool, around.tracker, around.radius_of(arm))] = REASONS[2]
     if around.floor is not None:
-        reasons[_lowest(body, frames.tool) < around.floor] = REASONS[1]
+        reasons[_lowest(body, frames.tool, around.up) < around.floor] = REASONS[1]
     for pair in _pairs(body):
         reasons[pair.distance < pair.near] = REASONS[0]
     return reasons[BODY.probes :]
 
 
 def lowest(arm: Arm, motor_angles: Array, around: Surroundings) -> Array:
-    """(N,) height of the lowest point of what moves at poses (N, m) rad, in the base frame, m.
+    """(N,) height, by `Surroundings.up`, of the lowest point of what moves at poses (N, m) rad, m.
 
     Args:
         arm: the arm.
@@ -87,7 +89,7 @@ def lowest(arm: Arm, motor_angles: Array, around: Surroundings) -> Array:
         (N,) heights, m.
     """
     body, frames = _probed(arm, around, motor_angles)
-    return _lowest(body, frames.tool)[BODY.probes :]
+    return _lowest(body, frames.tool, around.up)[BODY.probes :]
 
 
 def thinned(arm: Arm, around: Surroundings) -> tuple[str, ...]:
@@ -135,13 +137,14 @@ def _pairs(body: list[Capsule]) -> Iterator[PiecePair]:
             yield PiecePair(one, other, distance, min(one.radius + other.radius, BODY.nearest * widest))
 
 
-def _lowest(body: list[Capsule], tool: Array) -> Array:
+def _lowest(body: list[Capsule], tool: Array, up: Array) -> Array:
     """(N,) m, of the tool point and of all pieces that move; what never moves stands on the floor."""
-    found = tool[:, 2].copy()
+    found = tool @ up
     for piece in body:
         for point in (piece.start, piece.end):
-            if np.ptp(point[: BODY.probes, 2]) > BODY.still_m:
-                found = np.minimum(found, point[:, 2] - piece.radius)
+            height = point @ up
+            if np.ptp(height[: BODY.probes]) > BODY.still_m:
+                found = np.minimum(found, height - piece.radius)
     return found
 
 
