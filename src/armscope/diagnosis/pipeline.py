@@ -63,6 +63,11 @@ class Settings:
     orientation: bool = True
     floor_mm: float | None = None
 
+    @property
+    def floor(self) -> float | None:
+        """m."""
+        return None if self.floor_mm is None else 1e-3 * self.floor_mm
+
 
 def diagnose(
     arm: Arm,
@@ -110,22 +115,11 @@ def diagnose(
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
     found = select(start, rows, noise, frames, split.of_row, progress)
-    verdict = judge(
-        DiagnosisState(
-            **vars(found),
-            start=start,
-            recordings=table,
-            first=first,
-            noise=noise,
-            notices=notices,
-            split=split,
-            floor=None if settings.floor_mm is None else 1e-3 * settings.floor_mm,
-        ),
-        settings.resamples,
-        settings.cross_validation,
-        rng,
-        progress,
-    )
+    state = DiagnosisState(
+        **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split,
+        floor=settings.floor,
+    )  # fmt: skip
+    verdict = judge(state, settings.resamples, settings.cross_validation, rng, progress)
     progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
 
