@@ -116,7 +116,7 @@ def _maximised(found: Excitation) -> str:
 
 
 def _tell(found: Excitation) -> None:
-    from armscope.poses.exciting.output import collision_notes
+    from armscope.poses.exciting.output import motion_notes
 
     before, after = found.before, found.after
     print(_maximised(found))
@@ -137,5 +137,5 @@ def _tell(found: Excitation) -> None:
         print(f"moves no motor, whatever the motion: {', '.join(shown.nothing)}")
     if shown.together:
         print(f"shows only as sums with others: {', '.join(shown.together)}")
-    for note in (*found.limits.assumed, *collision_notes(found)):
+    for note in motion_notes(found):
         print(f"note: {note}", file=sys.stderr)

@@ -67,7 +67,7 @@ def _content(found: Excitation) -> dict[str, Any]:
             "torque_nm": found.torque.round(3),
             "torque_limit_nm": limits.torque,
         },
-        "assumed": [*limits.assumed, *collision_notes(found)],
+        "assumed": motion_notes(found),
         "motions_tried": found.tried,
         "motions_refused": found.refused,
         "fourier": {"centre_rad": path.centre, "sine_rad": path.sine, "cosine_rad": path.cosine},
@@ -85,10 +85,18 @@ def _words(pair: Pair) -> str:
     return " | ".join(" ".join(cause) for cause in pair)
 
 
-def collision_notes(found: Excitation) -> list[str]:
-    """What collisions were looked for with, and what was not."""
+ONLY_THESE_PAIRS = (
+    "the share is of torque without noise, and of these pairs: what else could be (all masses off a little, say) was "
+    "not planned for, and a verdict on this motion may still be open"
+)
+"""With --separate: more of what tells two causes apart is no promise that a third reading is excluded."""
+
+
+def motion_notes(found: Excitation) -> list[str]:
+    """What was assumed, what collisions were looked for with, and what was not looked at."""
     floor = "no floor" if found.around.floor is None else f"a floor at {found.around.floor * 1e3:g} mm"
-    return [f"collisions: {floor}", *body_notes(found.arm, found.around)]
+    collisions = [f"collisions: {floor}", *body_notes(found.arm, found.around)]
+    return [*found.limits.assumed, *collisions, *([ONLY_THESE_PAIRS] if found.pairs else [])]
 
 
 def _too_close(alternative: object) -> bool:
