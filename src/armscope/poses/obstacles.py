@@ -8,6 +8,7 @@ if they are thicker than the gap between them ever allows (short wrists, an elbo
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
@@ -43,7 +44,13 @@ class Surroundings:
 
     def shapes_of(self, arm: Arm) -> list[Shape]:
         """The collision shapes that count; none where the links are lines of one radius."""
-        return collision_shapes(arm.description) if self.radius is None else []
+        return _shapes(arm) if self.radius is None else []
+
+
+@functools.lru_cache(maxsize=8)
+def _shapes(arm: Arm) -> list[Shape]:
+    """Read once: meshes take long, and a search asks many times."""
+    return collision_shapes(arm.description)
 
 
 def ranges(arm: Arm) -> tuple[Array, Array]:
