@@ -21,7 +21,10 @@ def body_in_words(arm: Arm, around: Surroundings) -> str:
 def body_notes(arm: Arm, around: Surroundings) -> list[str]:
     """What a command says beside poses or a motion: what the body is taken for, and what was not checked."""
     notes = [f"the arm's body: {body_in_words(arm, around)}; links that share a joint are not checked"]
-    notes += [f"thicker than the gap between them allows, and checked less: {each}" for each in thinned(arm, around)]
+    notes += [
+        f"thicker than half the gap that there ever is between them, and checked less: {each}"
+        for each in thinned(arm, around)
+    ]
     return notes
 
 

@@ -1,9 +1,9 @@
 """Poses that an arm can take and a tracker can see: links as capsules, a floor, a line of sight.
 
 The body is that of `armscope.poses.body`; without collision shapes each link is assumed to be `BODY.radius` of the
-reach thick. Links that share a joint are not compared. Two others touch where they come closer than their radii, or,
-if they are thicker than the gap between them ever allows (short wrists, an elbow's offset), closer than
-`BODY.nearest` of its widest. So centre lines that cross are always refused, and a thicker body never less often.
+reach thick. Links that share a joint are not compared. Two others touch where they come closer than their radii or,
+if that is less, `BODY.nearest` of the widest gap that any pose leaves between them (short wrists, an elbow's offset). So
+centre lines that cross are always refused, and a thicker body never less often.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def lowest(arm: Arm, motor_angles: Array, around: Surroundings) -> Array:
 
 
 def thinned(arm: Arm, around: Surroundings) -> tuple[str, ...]:
-    """Pairs of links, in words, that count as touching closer than by their radii, for these leave them no room."""
+    """Pairs of links, in words, that count as touching closer than by their radii, which leave them little room."""
     body, _ = _probed(arm, around, np.empty((0, arm.n_motors)))
     found: dict[tuple[str, str], tuple[float, float]] = {}
     for pair in _pairs(body):
