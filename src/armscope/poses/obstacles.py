@@ -2,8 +2,8 @@
 
 The body is that of `armscope.poses.body`; without collision shapes each link is assumed to be `BODY.radius` of the
 reach thick. Links that share a joint are not compared. Two others touch where they come closer than their radii or,
-if that is less, `BODY.nearest` of the widest gap that any pose leaves between them (short wrists, an elbow's offset). So
-centre lines that cross are always refused, and a thicker body never less often.
+if that is less, `BODY.nearest` of the widest gap that any pose leaves between them (short wrists, an elbow's offset).
+So centre lines that cross are always refused, and a thicker body never less often.
 """
 
 from __future__ import annotations
