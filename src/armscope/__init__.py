@@ -31,11 +31,12 @@ if TYPE_CHECKING:
         read_recordings,
         read_robot,
     )
-    from armscope.notebook.notes import PredictionWarning
+    from armscope.notebook.notes import PosesWarning, PredictionWarning
     from armscope.verdict.files import read_verdict
 
 __all__ = [
     "InputError",
+    "PosesWarning",
     "PredictionWarning",
     "calibrate",
     "check",
@@ -57,6 +58,7 @@ def __getattr__(name: str) -> Any:
 
     elsewhere = {
         "InputError": "core.inputs",
+        "PosesWarning": "notebook.notes",
         "PredictionWarning": "notebook.notes",
         "read_verdict": "verdict.files",
     }

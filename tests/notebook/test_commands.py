@@ -59,7 +59,7 @@ def test_it_compensates_and_chooses(found):
     assert len(armscope.compensate(found, wanted).commands) == 3
     options = {"start_rad": [0.0] * 6, "allowed_outside": 9.0, "separate_points": True, "frame": "measurement"}
     assert armscope.compensate(found, wanted, **options).reached.all()
-    assert len(armscope.choose_poses(ROBOT, 15, n_candidates=100, starts=1).indices) > 0
+    assert len(armscope.choose_poses(ROBOT, 15, candidates=100, starts=1, floor_mm=0).indices) > 0
 
 
 def test_calibration_and_check_take_the_same_arguments():

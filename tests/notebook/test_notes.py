@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 import armscope
-from armscope import PredictionWarning
+from armscope import PosesWarning, PredictionWarning
 from armscope.core.inputs import InputError
 from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
@@ -52,3 +52,17 @@ def test_a_load_that_an_effect_follows_is_never_taken_for_none(one_effect: tuple
 def test_orientations_come_from_a_notebook_too(one_effect: tuple[pd.DataFrame, Diagnosed]) -> None:
     recordings, found = one_effect
     assert list(armscope.predict(found, recordings, pose=True).columns)[-4:] == ["qw", "qx", "qy", "qz"]
+
+
+def test_what_chosen_poses_were_not_checked_for_is_told() -> None:
+    """By the options of the command line: with a floor and a tracker there is less to say."""
+    options = {"candidates": 60, "starts": 1}
+    with pytest.warns(PosesWarning) as told:
+        armscope.choose_poses(EXAMPLE / "robot.yaml", 15, **options)
+    words = " ".join(str(each.message) for each in told)
+    assert "no --floor-mm" in words
+    assert "no --tracker" in words
+    with pytest.warns(PosesWarning) as told:
+        armscope.choose_poses(EXAMPLE / "robot.yaml", 15, floor_mm=0, tracker=(4000, 0, 1500), radius_mm=20, **options)
+    (body,) = told
+    assert "20 mm radius" in str(body.message)

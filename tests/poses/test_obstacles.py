@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from armscope.poses.body import collision_shapes, pieces
-from armscope.poses.obstacles import Surroundings, refusals, segment_distance
+from armscope.poses.obstacles import Surroundings, lowest, ranges, refusals, segment_distance, thinned
 from armscope.robot import chain, load_arm
 from armscope.robot.centre_line import centre_lines
 
@@ -132,3 +132,68 @@ def test_the_tracker_does_not_see_through_the_arm(arm):
     assert refusals(arm, pose, Surroundings(tracker=behind))[0] == "out of the tracker's sight"
     turned = np.array([[np.pi, 0, 0, 0, 0, 0]])
     assert refusals(arm, turned, Surroundings(tracker=behind))[0] == ""
+
+
+ARMS = ("six-axis", "seven-axis", "parallelogram-120kg", "sk120", "ur5e", "irb120")
+
+
+def drawn(name, count=60):
+    arm = load_arm(name) if name in ("ur5e", "irb120") else load_arm(ROBOTS / f"{name}.yaml")
+    low, high = ranges(arm)
+    return arm, np.random.default_rng(3).uniform(low, high, (count, arm.n_motors))
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.sampled_from(ARMS), st.floats(1e-3, 0.5), st.floats(1.0, 3.0), st.sampled_from([None, 0.0, -0.2]))
+def test_a_thicker_body_is_refused_wherever_a_thinner_one_is(name, radius, thicker, floor):
+    arm, angles = drawn(name)
+    thin = refusals(arm, angles, Surroundings(radius, floor)) != ""
+    thick = refusals(arm, angles, Surroundings(radius * thicker, floor)) != ""
+    assert not (thin & ~thick).any()
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.sampled_from(ARMS), st.floats(1e-4, 0.5))
+def test_centre_lines_that_cross_are_refused_at_any_radius(name, radius):
+    """Of links that share no joint: what separates them has a length."""
+    arm, angles = drawn(name, 2000)
+    lines = [line for _, line in centre_lines(arm, chain(arm, angles))]
+    points = np.concatenate([lines[0], *(line[:, 1:] for line in lines[1:])], axis=1)
+    lengths = np.linalg.norm(np.diff(points, axis=1), axis=2).max(axis=0)
+    pieces_of = [(points[:, k], points[:, k + 1]) for k in np.flatnonzero(lengths > 1e-6)]
+    crosses = np.zeros(len(angles), bool)
+    for k, one in enumerate(pieces_of):
+        for other in pieces_of[k + 2 :]:
+            crosses |= segment_distance(*one, *other) < 1e-4
+    assert (refusals(arm, angles[crosses], Surroundings(radius)) != "").all()
+
+
+def test_an_elbow_that_folds_through_the_upper_arm_is_refused_and_the_pair_named():
+    """The forearm stands off the elbow by 250 mm: capsules of 161 mm would touch there in every pose."""
+    arm = load_arm(ROBOTS / "sk120.yaml")
+    elbow = np.radians([[0, 0, each, 0, 60, 0] for each in (0, 90)])
+    assert refusals(arm, elbow, Surroundings()).tolist() == ["", "hits itself"]
+    said = [each for each in thinned(arm, Surroundings()) if each.startswith("link 2 and link 4")]
+    assert said == ["link 2 and link 4 within 125 mm of their lines, in place of 322 mm"]
+    assert thinned(arm, Surroundings(radius=0.01)) == ()
+
+
+def test_the_measured_point_is_never_under_the_floor(tmp_path):
+    """A tip beyond the last collision shape, without a tool: what spans to it is a part of the body."""
+    arm = urdf_arm(tmp_path, '<cylinder radius="0.05" length="0.4"/>')
+    around = Surroundings(floor=0.0)
+    angles = np.random.default_rng(0).uniform(-3, 3, (300, 3))
+    possible = angles[refusals(arm, angles, around) == ""]
+    assert len(possible) > 5
+    assert chain(arm, possible).tool[:, 2].min() >= around.radius_of(arm)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_the_lowest_point_is_where_the_floor_begins_to_stop_a_pose(name):
+    arm, angles = drawn(name, 30)
+    free = angles[refusals(arm, angles, Surroundings()) == ""]
+    low = lowest(arm, free, Surroundings())
+    assert (low <= chain(arm, free).tool[:, 2]).all()
+    for pose, height in zip(free, low, strict=True):
+        reasons = [refusals(arm, pose[None], Surroundings(floor=height + step))[0] for step in (-1e-6, 1e-6)]
+        assert reasons == ["", "hits the floor"]

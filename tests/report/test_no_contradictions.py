@@ -33,3 +33,18 @@ def test_causes_that_cancel_in_part_and_rows_that_count_little_are_told(tmp_path
     write_report(verdicts.case(effects=(link, zero), suspects=suspects).verdict, tmp_path)
     assert "in part they cancel each other" in (tmp_path / "report.html").read_text()
     assert "bad shots among them, as it seems: 1," in (tmp_path / "work-order.html").read_text()
+
+
+def test_poses_to_measure_next_say_what_they_keep_clear_of(tmp_path):
+    vague = replace(verdicts.compliance(), named_as="region", title="elastic, around joint 2")
+    rival, checked = "base_compliance at base", "Checked: joint limits. Obstacles unknown: run slowly."
+    for count, repeats in ((4, 3.0), (0, float("inf"))):
+        poses = NextPoses(
+            np.zeros((count, 6)), np.zeros(count), np.full(count, 0.01), vague.as_member, rival, repeats, checked
+        )
+        write_report(verdicts.case(effects=(vague,), next_poses=poses).verdict, tmp_path)
+        page = Page((tmp_path / "report.html").read_text()).words
+        assert checked in page
+        assert ("No pose that would tell them apart is known to be free." in page) == (count == 0)
+        assert ("In the poses below" in page) == (count > 0)
+        assert (checked in Page((tmp_path / "work-order.html").read_text()).words) == (count > 0)

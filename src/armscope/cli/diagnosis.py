@@ -55,6 +55,10 @@ def diagnose(
         bool, typer.Option(help="estimate gravity's direction: the arm is on a wedge whose lean nobody measured")
     ] = False,
     orientation: Annotated[bool, typer.Option(help="use measured orientations (qw, qx, qy, qz), too")] = True,
+    floor_mm: Annotated[
+        float | None,
+        typer.Option(help="floor in the base frame, for the poses to measure next; the recordings' lowest if left out"),
+    ] = None,
     report: Annotated[bool, typer.Option(help="write report.html, work-order.html and their figures")] = True,
     anyway: Annotated[bool, typer.Option("--anyway", help="go on though the check says the table is unusable")] = False,
     exit_code: Annotated[
@@ -93,8 +97,8 @@ def diagnose(
 
     robot, recordings = robot_for(robot, recordings), table_in(recordings)
     moving = is_motion_table(recordings)
-    of_points = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
-    of_points["--estimate-gravity"] = estimate_gravity or None
+    of_points: dict[str, Any] = {"--priors": priors, "--first-id": first_id, "--tool-per-run": tool_per_run or None}
+    of_points |= {"--estimate-gravity": estimate_gravity or None, "--floor-mm": floor_mm}
     _refuse_of_the_other(
         of_points if moving else {"--cutoff": cutoff, "--held-out": held_out or None}, recordings, moving
     )
@@ -122,7 +126,7 @@ def diagnose(
     from armscope.diagnosis import diagnose as diagnose_arm
 
     writable(output, DOMAIN)
-    settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation)
+    settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation, floor_mm)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)

@@ -106,20 +106,17 @@ def _told(done: int, of: int) -> None:
 
 
 def _maximised(found: Excitation) -> str:
-    """What the search maximises, of the median random motion and of this one; conditions are nobody's aim."""
+    """What this motion is better by than the median random one; the numbers themselves stand in trajectory.json."""
     before, after = found.before, found.after
-    remark = f"condition number {before.condition:.3g} and {after.condition:.3g}, which nothing maximises"
     if found.pairs:
         worst = f"{before.value:.0%} of the median random motion, {after.value:.0%} of this one"
-        return f"least share that can't be imitated: {worst}; {remark}"
+        return f"least share that can't be imitated: {worst}"
     surer = math.exp((after.value - before.value) / (2 * len(found.shown.base)))
-    value = f"{before.value:.4g} of the median random motion, {after.value:.4g} of this one"
-    told = f"its parameters come out {surer:.3g} times as surely (geometric mean)"
-    return f"log determinant of the information: {value}: {told}; {remark}"
+    return f"masses and friction come out {surer:.3g} times as surely as from the median random motion (geometric mean)"
 
 
 def _tell(found: Excitation) -> None:
-    from armscope.poses.exciting.output import collisions_in_words
+    from armscope.poses.exciting.output import motion_notes
 
     before, after = found.before, found.after
     print(_maximised(found))
@@ -140,5 +137,5 @@ def _tell(found: Excitation) -> None:
         print(f"moves no motor, whatever the motion: {', '.join(shown.nothing)}")
     if shown.together:
         print(f"shows only as sums with others: {', '.join(shown.together)}")
-    for note in (*found.limits.assumed, collisions_in_words(found)):
+    for note in motion_notes(found):
         print(f"note: {note}", file=sys.stderr)

@@ -13,7 +13,6 @@ from armscope.core.inputs import InputError
 
 if TYPE_CHECKING:
     from armscope.poses.choose import Choice
-    from armscope.poses.obstacles import Surroundings
 
 app = Commands()
 
@@ -54,53 +53,32 @@ def poses(
 ) -> None:
     """Choose the poses that show a set of effects best, and say what they are worth beside random ones and a grid."""
     from armscope.cli.robots import robot_of
-    from armscope.core.inputs import nearest
     from armscope.core.streams import is_stream
-    from armscope.design.indices import SOURCES
 
-    if criterion not in SOURCES:
-        raise InputError("--criterion", "", criterion, "O1, O2, O3, O4 or O5", nearest(criterion, SOURCES))
     if output.suffix != ".csv" and not is_stream(output):
         raise InputError("--output", "", str(output), "a table that ends in .csv")
     arm = robot_of(robot)
 
     from armscope.core.files import write_table
-    from armscope.poses.choose import by_other_criteria, choose
+    from armscope.poses.choose import by_other_criteria
     from armscope.poses.compare import compare_sets
+    from armscope.poses.options import PoseOptions
     from armscope.poses.output import write_choice
     from armscope.report.figures.pose_choice import choice_figure
     from armscope.report.style import save_figure
 
-    names = tuple(name.strip() for name in effects.split(",") if name.strip())
-    around = _surroundings(tracker, floor_mm, radius_mm)
-    choice = choose(arm, count, around, names, criterion, candidates, payload_kg, seed, starts)
+    asked = PoseOptions(effects, criterion, tracker, floor_mm, radius_mm, payload_kg, candidates, starts, seed)
+    choice = asked.choose(arm, count)
     noise, source = _noise(noise_mm, arm.sigma)
     others = by_other_criteria(choice, seed, starts) if all_criteria and seeds else {}
     compared = compare_sets(choice, noise, seeds, seed, payload_kg, others) if seeds else None
     write_choice(output, choice, compared, noise, source)
     if compared is not None and not is_stream(output):
         write_table(output.with_name(f"{output.stem}_compared.csv"), compared)
-        title = f"{arm.name}: {count} poses for {', '.join(names)} by {criterion}"
+        title = f"{arm.name}: {count} poses for {', '.join(asked.names)} by {criterion}"
         save_figure(choice_figure(compared, title), output.with_suffix(".png"), formats=("png", "svg"))
     _tell(choice, source, noise)
     print(output)
-
-
-def _surroundings(tracker: str | None, floor_mm: float | None, radius_mm: float | None) -> Surroundings:
-    import numpy as np
-
-    from armscope.poses.obstacles import Surroundings
-
-    place = None
-    if tracker is not None:
-        try:
-            place = np.array([float(part) for part in tracker.split(",")]) * 1e-3
-        except ValueError as error:
-            raise InputError("--tracker", "", tracker, "x,y,z in mm: three numbers") from error
-        if place.shape != (3,) or not np.isfinite(place).all():
-            raise InputError("--tracker", "", tracker, "x,y,z in mm: three numbers")
-    radius = None if radius_mm is None else radius_mm * 1e-3
-    return Surroundings(radius, None if floor_mm is None else floor_mm * 1e-3, place)
 
 
 def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
@@ -112,7 +90,7 @@ def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
 
 
 def _tell(choice: Choice, source: str, noise: float) -> None:
-    from armscope.poses.output import body_in_words
+    from armscope.poses.body_words import surroundings_notes
 
     pool = choice.candidates
     refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
@@ -120,9 +98,7 @@ def _tell(choice: Choice, source: str, noise: float) -> None:
     print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
     if choice.targets.hidden:
         print(f"not told apart from the others: {', '.join(choice.targets.hidden)}")
-    notes = [f"the arm's body: {body_in_words(choice)}"]
-    notes += ["no --tracker: every pose counts as visible"] if choice.around.tracker is None else []
-    notes += ["no --floor-mm: the arm may reach below its base"] if choice.around.floor is None else []
+    notes = surroundings_notes(choice.targets.arm, choice.around)
     notes += [f"noise {noise * 1e3:g} mm per axis, assumed"] if source == "assumed" else []
     for note in notes:
         print(f"note: {note}", file=sys.stderr)

@@ -51,6 +51,8 @@ class Settings:
         cross_validation: whether the procedure is validated on held-out rows.
         orientation: whether measured orientations are used, where there are some.
         estimate_gravity: whether gravity's direction is free; otherwise it is as the robot's description states.
+        floor_mm: height in the base frame below which the poses to measure next may not reach; None: as low as the
+            arm was in the recordings.
     """
 
     seed: int = 0
@@ -59,6 +61,12 @@ class Settings:
     cross_validation: bool = True
     estimate_gravity: bool = False
     orientation: bool = True
+    floor_mm: float | None = None
+
+    @property
+    def floor(self) -> float | None:
+        """m."""
+        return None if self.floor_mm is None else 1e-3 * self.floor_mm
 
 
 def diagnose(
@@ -107,15 +115,11 @@ def diagnose(
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
     found = select(start, rows, noise, frames, split.of_row, progress)
-    verdict = judge(
-        DiagnosisState(
-            **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split
-        ),
-        settings.resamples,
-        settings.cross_validation,
-        rng,
-        progress,
-    )
+    state = DiagnosisState(
+        **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split,
+        floor=settings.floor,
+    )  # fmt: skip
+    verdict = judge(state, settings.resamples, settings.cross_validation, rng, progress)
     progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
 

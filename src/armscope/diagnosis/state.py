@@ -59,6 +59,7 @@ class DiagnosisState(Selected):
         noise: what was known of it beforehand.
         notices: said already, before anything was selected.
         split: which block and fold each row is in.
+        floor: height in the base frame below which no pose may be asked for, m; None: that is not known.
     """
 
     start: FittedModel
@@ -67,3 +68,4 @@ class DiagnosisState(Selected):
     noise: Noise
     notices: tuple[Notice, ...]
     split: RowSplit
+    floor: float | None = None

@@ -32,11 +32,13 @@ from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
 from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
-from armscope.notebook.notes import with_notes
+from armscope.notebook.notes import PosesWarning, with_notes
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model_file import load_model
-from armscope.poses.choose import Choice, choose
+from armscope.poses.body_words import surroundings_notes
+from armscope.poses.choose import Choice
+from armscope.poses.options import PoseOptions
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
 from armscope.recordings.first_lines import is_motion_table
@@ -274,12 +276,13 @@ def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPat
 
 
 def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
-    """The poses that show a set of effects best: `armscope poses`.
+    """The poses that show a set of effects best: `armscope poses`, whose notes are warnings here.
 
     Args:
         robot: the nominal arm.
         count: how many to measure.
-        options: of `armscope.poses.choose.choose` (``effects=("joint_compliance",), seed=1``).
+        options: those of the command line: effects, criterion, tracker, floor_mm, radius_mm, payload_kg, candidates,
+            starts, seed (``effects="joint_compliance", floor_mm=0, tracker=(4000, 0, 1500)``).
 
     Returns:
         The chosen poses and what they are worth.
@@ -287,5 +290,7 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
     Raises:
         InputError: something that can't be used.
     """
-    refuse_unknown("choose_poses", options, options_of(choose))
-    return choose(read_robot(robot), count, **options)
+    refuse_unknown("choose_poses", options, [each.name for each in fields(PoseOptions)])
+    arm = read_robot(robot)
+    choice = PoseOptions(**options).choose(arm, count)
+    return with_notes((choice, surroundings_notes(arm, choice.around)), PosesWarning)

@@ -13,16 +13,21 @@ class PredictionWarning(UserWarning):
     """What was assumed or left out of a prediction: `armscope predict` says it on standard error."""
 
 
-def with_notes(given: tuple[Given, Iterable[str]]) -> Given:
-    """What came with notes, which are told as warnings (`PredictionWarning`).
+class PosesWarning(UserWarning):
+    """What chosen poses were not checked for: `armscope poses` says it on standard error."""
+
+
+def with_notes(given: tuple[Given, Iterable[str]], kind: type[UserWarning] = PredictionWarning) -> Given:
+    """What came with notes, which are told as warnings.
 
     Args:
         given: anything, and what is to be said about it.
+        kind: of warning.
 
     Returns:
         The first.
     """
     found, notes = given
     for note in notes:
-        warnings.warn(note, PredictionWarning, stacklevel=3)
+        warnings.warn(note, kind, stacklevel=3)
     return found

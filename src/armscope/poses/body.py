@@ -1,8 +1,9 @@
 """The arm's body as capsules: from the collision shapes of its URDF, or around the lines between its joints.
 
-A collision shape counts as the capsule along the longest side of its bounding box. Where a URDF has none (or meshes
-that are not there), and for D-H arms, each piece of the centre line (`armscope.robot.centre_line`) is a capsule of one
-assumed radius.
+A collision shape counts as the capsule along the longest side of its bounding box. Links that have none, and what lies
+between the last shape, the tip and the tool point, are capsules of one assumed radius around the centre line. Where a
+URDF has no shapes (or meshes that are not there), and for D-H arms, all of the centre line is
+(`armscope.robot.centre_line`).
 """
 
 from __future__ import annotations
@@ -26,11 +27,12 @@ from armscope.robot.urdf import cut, read_urdf
 class Capsule:
     """A capsule at N poses: what it belongs to, its axis' ends (N, 3), m, and its radius, m.
 
-    Pieces of one link, and pieces whose places differ by one, are neighbours.
+    Pieces of one link, and pieces whose places differ by one, are neighbours: they share a joint.
     """
 
     link: int
     place: int
+    name: str
     start: Array
     end: Array
     radius: float
@@ -47,7 +49,7 @@ class Shape:
 
 
 def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[Capsule]:
-    """The body at some poses: the shapes and the tool, or the centre line where there are no shapes.
+    """The body at some poses: the shapes and what they leave out, or the centre line where there are no shapes.
 
     Args:
         arm: the arm.
@@ -56,7 +58,7 @@ def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[
         radius: of the centre line and of the tool, m.
 
     Returns:
-        Capsules with ends (N, 3) in the base frame, m.
+        Capsules with ends (N, 3) in the base frame, m; the shapes come first.
     """
     lines = centre_lines(arm, frames)
     if not shapes:
@@ -65,19 +67,59 @@ def pieces(arm: Arm, frames: Chain, shapes: list[Shape], radius: float) -> list[
     placed = []
     for shape in shapes:
         start, end = (_placed(point, shape.joint, frames, turns) for point in (shape.start, shape.end))
-        placed.append(Capsule(shape.joint, shape.joint, start, end, shape.radius))
-    tool = [Capsule(each.link, arm.n_joints + 1, each.start, each.end, radius) for each in _along(lines[-1:], radius)]
-    return [*placed, *tool]
+        placed.append(Capsule(shape.joint, shape.joint, _name(shape.joint), start, end, shape.radius))
+    return [*placed, *_beside_shapes(placed, frames, lines[-1][1][:, -2], radius)]
+
+
+def _name(joint: int) -> str:
+    return f"link {joint}" if joint else "base"
 
 
 def _along(lines: list[tuple[str, Array]], radius: float) -> list[Capsule]:
+    """Pieces without length are points of their neighbours, which thereby share a joint."""
     found: list[Capsule] = []
-    for link, (_, line) in enumerate(lines):
+    for link, (name, line) in enumerate(lines):
         for k, after in pairwise(range(line.shape[1])):
-            length = np.linalg.norm(line[0, after] - line[0, k])  # the same in all poses
-            if length > BODY.shortest * radius:
-                found.append(Capsule(link, len(found), line[:, k], line[:, after], radius))
+            if _has_length(line[:, k], line[:, after]):
+                found.append(Capsule(link, len(found), name, line[:, k], line[:, after], radius))
     return found
+
+
+def _beside_shapes(shapes: list[Capsule], frames: Chain, tip: Array, radius: float) -> list[Capsule]:
+    """Links without a shape, and the way from the last link's shapes to its tip (N, 3), m, and on to the tool point."""
+    origins = np.moveaxis(frames.joint_origin, 1, 0)
+    points = [np.zeros_like(tip), *origins, tip]
+    last = len(origins)
+    found = []
+    for joint, (start, end) in enumerate(pairwise(points)):
+        own = [each for each in shapes if each.link == joint]
+        if not own:
+            found.append(Capsule(joint, joint, _name(joint), start, end, radius))
+        elif joint == last:
+            ways = [(each, _nearest(each, end)) for each in own]
+            shape, start = min(ways, key=lambda way: _farthest(way[1], end) - way[0].radius)
+            if _farthest(start, end) > shape.radius + BODY.point_m:  # else the tip lies within the shape
+                found.append(Capsule(last, last + 1, "tool", start, end, radius))
+    found.append(Capsule(last, last + 1, "tool", tip, frames.tool, radius))
+    return [each for each in found if _has_length(each.start, each.end)]
+
+
+def _nearest(capsule: Capsule, point: Array) -> Array:
+    """(N, 3) of its axis, nearest to a point (N, 3), m."""
+    along = capsule.end - capsule.start
+    length2 = np.maximum(np.sum(along**2, axis=1, keepdims=True), BODY.no_length_m2)
+    share = np.clip(np.sum((point - capsule.start) * along, axis=1, keepdims=True) / length2, 0, 1)
+    nearest: Array = capsule.start + share * along
+    return nearest
+
+
+def _farthest(one: Array, other: Array) -> float:
+    """Of two points (N, 3), m, in any pose; where no joint slides it is the same in all."""
+    return float(np.linalg.norm(one - other, axis=1).max())
+
+
+def _has_length(start: Array, end: Array) -> bool:
+    return _farthest(start, end) > BODY.point_m
 
 
 def _placed(point: Array, joint: int, frames: Chain, turns: Array) -> Array:

@@ -18,15 +18,10 @@ class BodyRules(Constants):
         "of a link as a share of the arm's reach, where there are no collision shapes",
         "judgement: 100 mm for a reach of 2.5 m",
     )
-    shortest: float = constant(
+    nearest: float = constant(
         0.5,
-        "share of the radius below which a piece of the centre line is a part of its neighbours",
-        "judgement: it lies within them",
-    )
-    always: float = constant(
-        0.9,
-        "share of the poses from which two pieces that touch do so by the assumed radius, not by the pose",
-        "judgement: an arm whose links meet in most poses is not built",
+        "share of the widest gap between two pieces in any pose within which they count as touching at the latest",
+        "measured: none of 2000 poses within the stated limits of the six-axis arm is then refused, at 0.75 12 %",
     )
     clear_of_tool: float = constant(
         2.0,
@@ -36,8 +31,8 @@ class BodyRules(Constants):
     )
     probes: int = constant(
         200,
-        "poses over the whole ranges that say which pieces always touch, and which never move",
-        "judgement: a share of 0.9 is then known to 2 %",
+        "poses over the whole ranges that say how far pieces come apart, and which never move",
+        "judgement: the widest of so many gaps is close to the widest of all",
         unit="poses",
     )
     unstated_rad: float = constant(
@@ -50,6 +45,12 @@ class BodyRules(Constants):
         1e-9,
         "motion of a piece's end over the probes below which it never moves",
         "derived: far above rounding",
+        unit="m",
+    )
+    point_m: float = constant(
+        1e-6,
+        "length of a piece of the centre line below which it is a point",
+        "derived: far below any length",
         unit="m",
     )
     no_length_m2: float = constant(
@@ -128,5 +129,8 @@ class ChoosingRules(Constants):
         unit="steps",
     )
 
+
+UP = np.array([0.0, 0.0, 1.0])
+"""Of the base frame of an arm that stands."""
 
 BODY, DRAWING, CHOOSING = BodyRules(), CandidateRules(), ChoosingRules()

@@ -1,23 +1,25 @@
 """Poses that an arm can take and a tracker can see: links as capsules, a floor, a line of sight.
 
 The body is that of `armscope.poses.body`; without collision shapes each link is assumed to be `BODY.radius` of the
-reach thick. Neighbouring pieces touch by construction and are not compared, nor are pairs that would touch in nearly
-every pose (short wrists).
+reach thick. Links that share a joint are not compared. Two others touch where they come closer than their radii or,
+if that is less, `BODY.nearest` of the widest gap that any pose leaves between them (short wrists, an elbow's offset).
+So centre lines that cross are always refused, and a thicker body never less often.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import functools
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
-from armscope.poses.constants import BODY
-from armscope.robot import Arm, chain
+from armscope.poses.constants import BODY, UP
+from armscope.robot import Arm, Chain, chain
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +30,13 @@ class Surroundings:
         radius: of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`).
         floor: height of a plane in the base frame below which nothing may be, m; None: there is none.
         tracker: (3,) where the tracker stands in the base frame, m; None: it sees everything.
+        up: (3,) of length one in the base frame: the way in which heights count.
     """
 
     radius: float | None = None
     floor: float | None = None
     tracker: Array | None = None
+    up: Array = field(default_factory=lambda: UP)
 
     def radius_of(self, arm: Arm) -> float:
         """Of the links, m."""
@@ -40,7 +44,13 @@ class Surroundings:
 
     def shapes_of(self, arm: Arm) -> list[Shape]:
         """The collision shapes that count; none where the links are lines of one radius."""
-        return collision_shapes(arm.description) if self.radius is None else []
+        return _shapes(arm) if self.radius is None else []
+
+
+@functools.lru_cache(maxsize=8)
+def _shapes(arm: Arm) -> list[Shape]:
+    """Read once: meshes take long, and a search asks many times."""
+    return collision_shapes(arm.description)
 
 
 def ranges(arm: Arm) -> tuple[Array, Array]:
@@ -62,49 +72,87 @@ def refusals(arm: Arm, motor_angles: Array, around: Surroundings) -> NDArray[np.
 
     Returns:
         (N,) texts.
-
-    Raises:
-        InputError: links so thick that no two parts of the arm are apart.
     """
+    body, frames = _probed(arm, around, motor_angles)
+    reasons = np.full(len(frames.tool), "", dtype="<U30")
+    if around.tracker is not None:
+        reasons[_hidden(body, frames.tool, around.tracker, around.radius_of(arm))] = REASONS[2]
+    if around.floor is not None:
+        reasons[_lowest(body, frames.tool, around.up) < around.floor] = REASONS[1]
+    for pair in _pairs(body):
+        reasons[pair.distance < pair.near] = REASONS[0]
+    return reasons[BODY.probes :]
+
+
+def lowest(arm: Arm, motor_angles: Array, around: Surroundings) -> Array:
+    """(N,) height, by `Surroundings.up`, of the lowest point of what moves at poses (N, m) rad, m.
+
+    Args:
+        arm: the arm.
+        motor_angles: (N, m) rad.
+        around: the body.
+
+    Returns:
+        (N,) heights, m.
+    """
+    body, frames = _probed(arm, around, motor_angles)
+    return _lowest(body, frames.tool, around.up)[BODY.probes :]
+
+
+def thinned(arm: Arm, around: Surroundings) -> tuple[str, ...]:
+    """Pairs of links, in words, that count as touching closer than by their radii, which leave them little room."""
+    body, _ = _probed(arm, around, np.empty((0, arm.n_motors)))
+    found: dict[tuple[str, str], tuple[float, float]] = {}
+    for pair in _pairs(body):
+        stated = pair.one.radius + pair.other.radius
+        if pair.near < stated and np.ptp(pair.distance) > BODY.still_m:  # else no pose brings them nearer
+            names = pair.one.name, pair.other.name
+            found[names] = min(found.get(names, (np.inf, 0.0)), (pair.near, stated))
+    return tuple(
+        f"{one} and {other} within {1e3 * near:.0f} mm of their lines, in place of {1e3 * stated:.0f} mm"
+        for (one, other), (near, stated) in found.items()
+    )
+
+
+def _probed(arm: Arm, around: Surroundings, motor_angles: Array) -> tuple[list[Capsule], Chain]:
+    """The body and the frames in `BODY.probes` poses over the whole ranges, followed by those asked for."""
     from scipy.stats import qmc  # takes long to import: only where poses are chosen
 
     low, high = ranges(arm)
     probes = low + qmc.Halton(arm.n_motors, scramble=False).random(BODY.probes) * (high - low)
     frames = chain(arm, np.concatenate([probes, motor_angles]))
-    radius = around.radius_of(arm)
-    body = pieces(arm, frames, around.shapes_of(arm), radius)
-    if not body:
-        found = f"{1e3 * radius:.6g} mm"
-        raise InputError("--radius-mm", "", found, "links this thick would touch one another in every pose")
-    reasons = np.full(BODY.probes + len(motor_angles), "", dtype="<U30")
-    if around.tracker is not None:
-        reasons[_hidden(body, frames.tool, around.tracker, radius)] = REASONS[2]
-    if around.floor is not None:
-        reasons[_below(body, around.floor)] = REASONS[1]
-    reasons[_touches_itself(body)] = REASONS[0]
-    return reasons[BODY.probes :]
+    return pieces(arm, frames, around.shapes_of(arm), around.radius_of(arm)), frames
 
 
-def _touches_itself(body: list[Capsule]) -> NDArray[np.bool_]:
-    """(N,) poses in which two pieces that are no neighbours come closer than their radii."""
-    touches = np.zeros(len(body[0].start), dtype=bool)
+@dataclass(frozen=True, eq=False)
+class PiecePair:
+    """Two pieces that share no joint, the (N,) distance of their axes, m, and that from which on they touch, m."""
+
+    one: Capsule
+    other: Capsule
+    distance: Array
+    near: float
+
+
+def _pairs(body: list[Capsule]) -> Iterator[PiecePair]:
     for one, other in combinations(body, 2):
         if abs(other.place - one.place) <= 1 or other.link == one.link:
             continue
-        close = segment_distance(one.start, one.end, other.start, other.end) < one.radius + other.radius
-        if close[: BODY.probes].mean() < BODY.always:
-            touches |= close
-    return touches
+        distance = segment_distance(one.start, one.end, other.start, other.end)
+        widest = float(distance[: BODY.probes].max())
+        if widest > BODY.still_m:  # else they share a point in all poses
+            yield PiecePair(one, other, distance, min(one.radius + other.radius, BODY.nearest * widest))
 
 
-def _below(body: list[Capsule], floor: float) -> NDArray[np.bool_]:
-    """(N,) poses with a moving piece nearer to the floor than its radius; what never moves stands on it."""
-    lowest = np.full(len(body[0].start), np.inf)
+def _lowest(body: list[Capsule], tool: Array, up: Array) -> Array:
+    """(N,) m, of the tool point and of all pieces that move; what never moves stands on the floor."""
+    found = tool @ up
     for piece in body:
         for point in (piece.start, piece.end):
-            if np.ptp(point[: BODY.probes, 2]) > BODY.still_m:
-                lowest = np.minimum(lowest, point[:, 2] - piece.radius)
-    return np.asarray(lowest < floor)
+            height = point @ up
+            if np.ptp(height[: BODY.probes]) > BODY.still_m:
+                found = np.minimum(found, height - piece.radius)
+    return found
 
 
 def _hidden(body: list[Capsule], tool: Array, tracker: Array, radius: float) -> NDArray[np.bool_]:

@@ -12,9 +12,11 @@ from armscope.core.files import write_json, write_table
 from armscope.core.streams import is_stream
 from armscope.design.indices import SOURCES
 from armscope.physics.effect import Driver
+from armscope.poses.body_words import body_in_words
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
 from armscope.poses.constants import BODY
+from armscope.poses.obstacles import thinned
 from armscope.recordings.columns import angle_columns
 
 FOLLOW_APPROACH = {"approach", "lost motion"}
@@ -64,7 +66,9 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
         "not_told_apart": list(targets.hidden),
         "candidates": {"possible": len(pool), "drawn": pool.drawn, "refused": dict(pool.refused)},
         "assumed": {
-            "body": body_in_words(choice),
+            "body": body_in_words(targets.arm, around),
+            "checked_less": list(thinned(targets.arm, around)),
+            "not_checked": "links that share a joint",
             "floor_mm": None if around.floor is None else around.floor * 1e3,
             "tracker_mm": None if around.tracker is None else (around.tracker * 1e3).tolist(),
             "motors_without_limits": [
@@ -83,16 +87,6 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
             },
         }
     return content
-
-
-def body_in_words(choice: Choice) -> str:
-    """What the arm's body is taken to be."""
-    arm, around = choice.targets.arm, choice.around
-    radius = f"{around.radius_of(arm) * 1e3:.0f} mm radius"
-    shapes = around.shapes_of(arm)
-    if shapes:
-        return f"{len(shapes)} collision shapes of the URDF as capsules, and a tool of {radius}"
-    return f"links as capsules of {radius} around the lines between their joints"
 
 
 def _follows_approach(choice: Choice) -> bool:

@@ -50,7 +50,10 @@ class Residuals:
 
 @dataclass(frozen=True, eq=False)
 class NextPoses:
-    """Poses to measure next: (K, m) motor angles (rad), and how far apart (mm) two readings predict the tool there."""
+    """Poses to measure next: (K, m) motor angles (rad), and how far apart (mm) two readings predict the tool there.
+
+    payload_kg is NaN where no payload was recorded; checked says, in sentences, what the poses keep clear of.
+    """
 
     motor_angles: Array
     payload_kg: Array
@@ -58,6 +61,7 @@ class NextPoses:
     first: str
     second: str
     repeats_needed: float
+    checked: str = ""
 
     @property
     def settle(self) -> bool:

@@ -65,8 +65,10 @@ def next_poses_table(verdict: Diagnosis) -> pd.DataFrame:
     poses = verdict.next_poses
     assert poses is not None
     table = pd.DataFrame(angle_columns(poses.motor_angles))
-    table["payload_kg"] = poses.payload_kg
+    if not np.all(np.isnan(poses.payload_kg)):
+        table["payload_kg"] = poses.payload_kg
     table["separation_mm"] = poses.separation_mm
+    table["note"] = poses.checked
     return table
 
 

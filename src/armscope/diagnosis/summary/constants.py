@@ -112,8 +112,10 @@ class NextPoseRules(Constants):
         unit="nats",
     )
     most_repeats: int = constant(200, "of a pose", "judgement: nobody measures one more often", unit="visits")
-    payload_kg: float = constant(
-        10.0, "tried where the recordings never carried one", "judgement: what a mid-sized arm carries", unit="kg"
+    rounds: int = constant(
+        20,
+        "of so many draws until as many are possible as compete",
+        "judgement: one in twenty is enough to choose from",
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,14 +10,13 @@ from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import Rival, discriminability
 from armscope.diagnosis.summary.constants import NEXT_POSES
+from armscope.diagnosis.summary.reachable import checked_in_words, free_space, reachable
 from armscope.fitting.design_matrix import point_columns
 from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms
-from armscope.physics.effect import ONE
+from armscope.physics.drivers import follows
+from armscope.physics.effect import ONE, Term
 from armscope.physics.scene import Scene
-from armscope.poses.obstacles import Surroundings, refusals
-from armscope.recordings import Recordings
-from armscope.robot import Arm
 from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -51,7 +49,12 @@ def next_poses(
     if nats > INDISTINGUISHABLE_NATS:
         return None
     arm = state.fit.model.arm
-    table = _reachable(arm, state.recordings, rng)
+    terms = [state.space.layout.terms[column] for column in (*effect.columns, *rival.columns)]
+    around = free_space(arm, state.recordings, state.floor)
+    table = reachable(arm, state.recordings, around, _follow_load(terms), rng)
+    if not len(table):
+        nowhere = checked_in_words(arm, around, state.floor is None, 0)
+        return NextPoses(table.motor_angles, np.empty(0), np.empty(0), effect.label, rival.label, np.inf, nowhere)
     scene = Scene(arm, table)
     posture = scene.posture()
     X = point_columns(posture, state.space.layout.terms).reshape(len(table), 3, -1) / state.problem.scale
@@ -75,40 +78,12 @@ def next_poses(
         ),
         float("inf"),
     )
-    payload = np.zeros(len(chosen)) if table.payload is None else table.payload[chosen]
-    return NextPoses(table.motor_angles[chosen], payload, separation, effect.label, rival.label, repeats)
+    payload = np.full(len(chosen), np.nan) if table.payload is None else table.payload[chosen]
+    checked = checked_in_words(arm, around, state.floor is None, len(chosen))
+    return NextPoses(table.motor_angles[chosen], payload, separation, effect.label, rival.label, repeats, checked)
 
 
-def _reachable(arm: Arm, recordings: Recordings, rng: np.random.Generator) -> Recordings:
-    """Random poses within the joint limits (where none are stated: the recorded range), with and without payload.
-
-    Poses in which the arm would hit itself are left out, as far as its body is known (`armscope.poses.obstacles`).
-    """
-    low, high = recordings.motor_angles.min(axis=0), recordings.motor_angles.max(axis=0)
-    stated = np.isfinite(arm.limits).all(axis=1)
-    low, high = np.where(stated, arm.limits[:, 0], low), np.where(stated, arm.limits[:, 1], high)
-    angles = rng.uniform(low, high, (NEXT_POSES.tried, arm.n_motors))
-    heaviest = np.nanmax(recordings.payload) if recordings.payload is not None else 0.0
-    run = np.full(NEXT_POSES.tried, "next")
-    shape = (NEXT_POSES.tried, arm.n_motors)
-    table = replace(
-        recordings,
-        motor_angles=angles,
-        positions=np.full((NEXT_POSES.tried, 3), np.nan),
-        run=run,
-        target=np.full(NEXT_POSES.tried, recordings.target[-1]),
-        id=np.arange(1, NEXT_POSES.tried + 1).astype(str),
-        orientation=None,
-        sigma=None,
-        extra=None,
-        torque=None,
-        payload=rng.choice([0.0, heaviest or NEXT_POSES.payload_kg], NEXT_POSES.tried),
-        approach=None if recordings.approach is None else rng.choice([-1.0, 1.0], shape),
-        speed=None if recordings.speed is None else np.zeros(shape),
-        time=None if recordings.time is None else np.full(NEXT_POSES.tried, np.nanmax(recordings.time)),
-        temperature=None
-        if recordings.temperature is None
-        else np.full(NEXT_POSES.tried, np.nanmedian(recordings.temperature)),
-    )
-    possible = refusals(arm, angles, Surroundings()) == ""
-    return table.rows(possible) if np.sum(possible) >= NEXT_POSES.asked else table
+def _follow_load(terms: Sequence[Term]) -> bool:
+    """Whether any of the two readings depends on what is carried: else a payload tells nothing."""
+    products = [product for each in terms for product in each.products]
+    return any(follows(what, product.driver) for product in products for what in ("load", "payload"))

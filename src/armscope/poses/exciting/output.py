@@ -11,7 +11,7 @@ import pandas as pd
 from armscope.core.files import read_json, write_json, write_table
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
-from armscope.poses.body import collision_shapes
+from armscope.poses.body_words import body_notes
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
 from armscope.poses.exciting.search import Excitation, times_of_table
@@ -67,7 +67,7 @@ def _content(found: Excitation) -> dict[str, Any]:
             "torque_nm": found.torque.round(3),
             "torque_limit_nm": limits.torque,
         },
-        "assumed": [*limits.assumed, collisions_in_words(found)],
+        "assumed": motion_notes(found),
         "motions_tried": found.tried,
         "motions_refused": found.refused,
         "fourier": {"centre_rad": path.centre, "sine_rad": path.sine, "cosine_rad": path.cosine},
@@ -85,12 +85,18 @@ def _words(pair: Pair) -> str:
     return " | ".join(" ".join(cause) for cause in pair)
 
 
-def collisions_in_words(found: Excitation) -> str:
-    """What collisions were looked for with."""
+ONLY_THESE_PAIRS = (
+    "the share is of torque without noise, and of these pairs: what else could be (all masses off a little, say) was "
+    "not planned for, and a verdict on this motion may still be open"
+)
+"""With --separate: more of what tells two causes apart is no promise that a third reading is excluded."""
+
+
+def motion_notes(found: Excitation) -> list[str]:
+    """What was assumed, what collisions were looked for with, and what was not looked at."""
     floor = "no floor" if found.around.floor is None else f"a floor at {found.around.floor * 1e3:g} mm"
-    if found.around.radius is None and collision_shapes(found.arm.description):
-        return f"collisions by the URDF's shapes, {floor}"
-    return f"links as capsules of {found.around.radius_of(found.arm) * 1e3:.0f} mm radius, {floor}"
+    collisions = [f"collisions: {floor}", *body_notes(found.arm, found.around)]
+    return [*found.limits.assumed, *collisions, *([ONLY_THESE_PAIRS] if found.pairs else [])]
 
 
 def _too_close(alternative: object) -> bool:

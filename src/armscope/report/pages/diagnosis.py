@@ -105,6 +105,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
         "wrongly_stated": wrongly_stated(verdict),
+        "next_poses": verdict.next_poses.checked if verdict.next_poses and verdict.next_poses.settle else "",
         "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
         "kinematics": f"{UR}: {ZEROS_IN_IT}" if kinematics else "",
         "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
