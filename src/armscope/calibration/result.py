@@ -16,6 +16,7 @@ from armscope.calibration.geometry import nominal_values
 from armscope.calibration.model import Level, SetUp
 from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
+from armscope.core.told import InWords
 from armscope.core.types import Array
 from armscope.robot import Arm
 
@@ -23,8 +24,8 @@ SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)
 """Factor and unit for reading."""
 
 
-@dataclass(frozen=True, eq=False)
-class Calibration:
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration(InWords):
     """A calibrated arm.
 
     Attributes:
@@ -115,6 +116,16 @@ class Calibration:
         names = np.array(self.set_up.names)[self.free]
         return pd.DataFrame(self.covariance, columns=names).assign(parameter=names)[["parameter", *names]]
 
+    def sentences(self) -> tuple[str, ...]:
+        """Rows and parameters, what it leaves, why it is doubtful, and what holds the rest."""
+        held = f", {len(self.held)} more held at nominal" if self.held else ""
+        return (
+            f"{_about(self)}{held}.",
+            f"{_misses(self)[0]}.",
+            *(f"Doubtful: {doubt}." for doubt in self.doubts),
+            "text() says all of it, table has the numbers, arm is the corrected arm.",
+        )
+
     def text(self) -> str:
         """The calibration in words, lengths in mm and angles in mrad."""
         return in_words(self)
@@ -123,8 +134,7 @@ class Calibration:
 def in_words(calibration: Calibration) -> str:
     """Lengths in mm, angles in mrad, compliances in µrad/(N m); what D-H constants become as in robot.yaml."""
     arm = calibration.set_up.arm
-    rows, parameters = len(calibration.set_up), int(calibration.free.sum())
-    lines = [f"{arm.name}: {calibration.level} calibration on {rows} rows, {parameters} parameters"]
+    lines = [_about(calibration)]
     lines += _misses(calibration)
     if arm.description.urdf is not None and arm.description.actuation is None:
         motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
@@ -140,6 +150,11 @@ def in_words(calibration: Calibration) -> str:
         lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
         lines += [f"  {each.text()}" for each in calibration.held]
     return "\n".join(lines)
+
+
+def _about(calibration: Calibration) -> str:
+    rows, parameters = len(calibration.set_up), int(calibration.free.sum())
+    return f"{calibration.set_up.arm.name}: {calibration.level} calibration on {rows} rows, {parameters} parameters"
 
 
 def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float) -> str:

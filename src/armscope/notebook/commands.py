@@ -26,17 +26,18 @@ from armscope.compensation.physical import Identified, identified_beside, identi
 from armscope.compensation.predicting import predict_file, predict_rows
 from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
-from armscope.core.inputs import InputError
+from armscope.core.inputs import DATA_FRAME, InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
+from armscope.notebook.chosen import ChosenPoses
 from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.notes import with_notes
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model_file import load_model
-from armscope.poses.choose import Choice, choose
+from armscope.poses.choose import choose
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
 from armscope.recordings.first_lines import is_motion_table
@@ -78,7 +79,7 @@ def read_recordings(recordings: Table, robot: Robot | None = None, measured: boo
     if isinstance(recordings, Recordings):
         return recordings
     if isinstance(recordings, pd.DataFrame):
-        return as_recordings(recordings, "data frame", n_motors, measured)
+        return as_recordings(recordings, DATA_FRAME, n_motors, measured)
     if not isinstance(recordings, str | Path):
         cure = "The recordings come first, then the robot."
         raise InputError("recordings", "", type(recordings).__name__, "a table, or the path of one", cure)
@@ -191,13 +192,20 @@ def compensate(
         options: those of the command line: frame, pose, start_rad, allowed_outside, separate_points.
 
     Returns:
-        Commands, what they will reach, and which rows have none; `to_table()` is what the command writes.
+        Commands, what they will reach, and which rows have none; `to_table()` is what the command writes. Notes, and
+        why rows have no command, are warnings.
 
     Raises:
         InputError: something that can't be used.
     """
     refuse_unknown("compensate", options, [each.name for each in fields(Options)])
-    chosen = Options(**options)
+    found = _compensated(model, path, recordings, Options(**options))
+    return with_notes((found, (*found.notes, *found.refusals)))
+
+
+def _compensated(
+    model: Model, path: WantedPath | pd.DataFrame | Path | str, recordings: Table | None, chosen: Options
+) -> Compensated:
     if isinstance(model, str | Path) and str(model).endswith(".json"):
         error_model: ErrorModel = load_error_model(model)
         return compensate_black_box(error_model, _wanted(path, error_model.arm), chosen)
@@ -270,10 +278,10 @@ def _identified(model: Model) -> Identified | None:
 def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
     if isinstance(path, WantedPath):
         return path
-    return as_path(path, "data frame", arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
+    return as_path(path, DATA_FRAME, arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
 
 
-def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
+def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:
     """The poses that show a set of effects best: `armscope poses`.
 
     Args:
@@ -288,4 +296,4 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
         InputError: something that can't be used.
     """
     refuse_unknown("choose_poses", options, options_of(choose))
-    return choose(read_robot(robot), count, **options)
+    return ChosenPoses(**vars(choose(read_robot(robot), count, **options)))
