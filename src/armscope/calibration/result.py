@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.calibration.by_run import ALL
+from armscope.calibration.by_run import ALL, no_gain
 from armscope.calibration.confounding import Confounded
-from armscope.calibration.constants import CALIBRATING
+from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.model import Level, SetUp
 from armscope.calibration.state import State
@@ -22,6 +22,8 @@ from armscope.robot import Arm
 
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
 """Factor and unit for reading."""
+UNDETERMINED = {"m": SIZES.length_m, "rad": SIZES.angle_rad, "rad/(N m)": SIZES.compliance_rad_nm}
+"""Standard errors from which rows say less of a constant than what is plausible of any arm."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,6 +76,11 @@ class Calibration(InWords):
     def rms_distance(self) -> float:
         """Root mean square of the 3D distance over the rows, m."""
         return rms_distance(self.residuals)
+
+    @property
+    def nominal_serves(self) -> bool:
+        """Whether constants were fitted that help no pose that took no part: base and tool alone do as well."""
+        return self.level != "nominal" and no_gain(self.misses)
 
     @property
     def table(self) -> pd.DataFrame:
@@ -147,7 +154,8 @@ def in_words(calibration: Calibration) -> str:
     lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
     lines += [_parameter(*row) for row in calibration.table.itertuples(index=False)]
     if calibration.held:
-        lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
+        lines.append("held at nominal: from these poses not told apart from what moves the tool alike (the standard")
+        lines.append("errors above are right if it is exactly nominal: where it is off, those named here take it up):")
         lines += [f"  {each.text()}" for each in calibration.held]
     return "\n".join(lines)
 
@@ -165,7 +173,7 @@ def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float
         if name.startswith("joint "):  # the value is a change
             after = nominal + value
             becomes = f"{np.degrees(after):.5g} deg" if unit == "rad" else f"{1e3 * after:.6g} mm"
-            beside = f"  (becomes {becomes})"
+            beside = f"  (becomes {becomes})" if stderr < UNDETERMINED[unit] else "  (undetermined: see its error)"
     return f"  {name:<28} {value * factor:12.5g} +- {stderr * factor:.2g} {shown}{beside}"
 
 
