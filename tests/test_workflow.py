@@ -154,6 +154,14 @@ def test_two_fleets_of_one_file_name_have_folders_of_their_own(finished, table, 
     assert f"/fleet/{name}/report.html" in snakemake(finished, "-n", "fleet", "--config", f"fleet={table}")
 
 
+def test_an_absent_table_costs_its_own_arm_only(finished):
+    """It is left out of what the workflow waits for; the diagnosis of its arm says what was not found."""
+    shutil.copytree(ROOT / "examples", finished / "examples", dirs_exist_ok=True)
+    arms = (finished / "config" / "fleet.csv").read_text()
+    (finished / "absent.csv").write_text(arms + "gone,six-axis,2026-04,nowhere/robot.yaml,nowhere/recordings.csv\n")
+    assert "fleet_diagnose" in jobs(snakemake(finished, "-n", "fleet", "--config", "fleet=absent.csv"))
+
+
 @pytest.mark.long
 def test_the_campaign_asks_for_files_that_the_workflow_makes(finished):
     """It takes hours and is run by hand: a folder that is called otherwise must not end it midway."""

@@ -16,6 +16,7 @@ from armscope.calibration.geometry import constants_of, corrected
 from armscope.calibration.model import set_up
 from armscope.cli import app
 from armscope.core.inputs import InputError
+from armscope.robot import load_arm
 from armscope.robot.arm import build_arm
 from tests.calibration.worlds import far_away, measured, planted, poses, together, ur_like
 from tests.robot.arms import random_masses
@@ -249,3 +250,26 @@ def test_the_command_writes_what_was_found_and_nothing_that_is_doubtful(rng, tmp
     assert "should not be used" in str(bad.exception)
     assert not list((tmp_path / "bad").glob("*"))
     assert written(moved, "bad", "--one-base", "--anyway").exit_code == 0
+
+
+def test_constants_that_help_no_other_pose_are_not_written_as_corrections(rng, tmp_path):
+    """A noisy tracker and an arm that is as drawn: robot.yaml has its tool, and D-H rows as they were."""
+    from armscope.core.files import write_yaml
+
+    nominal = ur_like()
+    rows = measured(nominal, poses(rng, 40, 6), far_away(rng), {"": [0.05, 0.1, 0.2]})
+    noisy = rows.positions * 1e3 + rng.normal(0, 0.5, (40, 3))
+    angles = {f"q{j + 1}_rad": rows.motor_angles[:, j] for j in range(6)}
+    points = {f"{axis}_mm": noisy[:, k] for k, axis in enumerate("xyz")}
+    pd.DataFrame(angles | points).to_csv(tmp_path / "recordings.csv", index=False)
+    write_yaml(tmp_path / "robot.yaml", nominal.description.model_dump(exclude_defaults=True))
+    for options, as_drawn in (((), True), (("--anyway",), False)):
+        line = ["calibrate", str(tmp_path), "-o", str(tmp_path / f"out{len(options)}"), *options]
+        done = CliRunner().invoke(app, line)
+        assert done.exit_code == 0, done.output
+        assert "the nominal arm serves as well" in done.output
+        assert ("these constants are not written" in done.output) is as_drawn
+        written = load_arm(tmp_path / f"out{len(options)}" / "robot.yaml")
+        assert np.allclose(written.before, nominal.before, atol=1e-9) is as_drawn
+        if as_drawn:
+            np.testing.assert_allclose(written.tool, [0.05, 0.1, 0.2], atol=2e-3)

@@ -118,6 +118,11 @@ def test_a_corrected_urdf_keeps_all_else_and_finds_its_meshes(tmp_path):
     before, after = (ET.parse(path).getroot() for path in (urdf, tmp_path / "to" / "robot.urdf"))
     meshes = [mesh.get("filename") for mesh in after.iter("mesh")]
     assert meshes == ["package://torso_description/meshes/torso.stl", "../from/meshes/shoulder.stl"]
+    added = [each for each in after if "calibrated_tool" in (each.get("name") or "")]
+    assert [each.tag for each in added] == ["link", "joint"]
+    assert added[1].find("parent").get("link") == "flange"
+    for each in added:  # the fitted tool, and nothing else
+        after.remove(each)
     for robot in (before, after):
         for element in robot.iter():
             element.text = element.tail = None
@@ -137,3 +142,21 @@ def test_an_unknown_target_is_named(tmp_path):
     with pytest.raises(InputError, match="left"):
         export(calibration, tmp_path, "lefft")
     assert not list(tmp_path.iterdir())
+
+
+def test_the_link_at_the_tool_of_a_corrected_urdf_is_where_points_were_measured(tmp_path):
+    """Also of a file that was calibrated before, whose link of then stays where it was."""
+    urdf = str(Path(__file__).parents[1] / "robot" / "torso_arm.urdf")
+    nominal = build_arm(RobotDescription(name="t", urdf=urdf, tip="flange", hold_joints={"torso_lift": 0.1}))
+    rng = np.random.default_rng(8)
+    for number, name in enumerate(("calibrated_tool", "calibrated_tool_2")):
+        tool = {"": [0.05 * number, 0, 0.1]}
+        calibration = calibrate(nominal, measured(planted(nominal, rng), poses(rng, 60, 6), far_away(rng), tool))
+        export(calibration, tmp_path / str(number))
+        described = {"urdf": str(tmp_path / str(number) / "robot.urdf"), "hold_joints": {"torso_lift": 0.1}}
+        at_link = build_arm(RobotDescription(name="t", tip=name, **described))
+        nominal = load_arm(tmp_path / str(number) / "robot.yaml")
+        angles = poses(rng, 20, 6)
+        np.testing.assert_allclose(
+            forward_kinematics(at_link, angles), forward_kinematics(nominal, angles), atol=1e-8, err_msg=name
+        )

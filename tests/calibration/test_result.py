@@ -1,8 +1,10 @@
 """A calibration's words say the numbers of its table, in the units that they name."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from armscope.calibration.calibrate import calibrate
@@ -35,3 +37,23 @@ def test_what_a_constant_becomes_is_what_the_corrected_arm_has(calibration):
     assert {name: float(value) for name, value in told.items()} == pytest.approx(
         {name: corrected[name] for name in told}, abs=2e-3
     )
+
+
+def test_what_is_held_limits_the_standard_errors_and_it_says_so(calibration):
+    assert calibration.held
+    assert "are right if it is exactly nominal" in calibration.text()
+
+
+def test_a_constant_that_the_rows_hardly_tell_is_undetermined(calibration):
+    """Its error exceeds what is plausible of any arm: 0.7 mrad with an error of 17 is no correction."""
+    vague = replace(calibration, covariance=0.017**2 * np.eye(len(calibration.covariance)))
+    (line,) = (each for each in vague.text().splitlines() if each.startswith("  joint 3 theta "))
+    assert line.endswith("(undetermined: see its error)")
+    assert "undetermined" not in calibration.text()
+
+
+def test_without_a_held_out_gain_the_nominal_arm_serves(calibration):
+    assert not calibration.nominal_serves
+    misses = pd.DataFrame({"held_out_mm": [0.07], "frames_only_mm": [0.06]})
+    assert replace(calibration, misses=misses).nominal_serves
+    assert not replace(calibration, misses=misses, level="nominal").nominal_serves

@@ -40,6 +40,9 @@ def test_every_assumed_number_has_a_source():
         ({"paper": {"swarm": {"particles": 1}}}, "paper.swarm.particles"),
         ({"paper": {"swarm": {"update": "constricton"}}}, "paper.swarm.update"),
         ({"paper": {"swarm": {"partcles": 10}}}, "paper.swarm.partcles"),
+        ({"paper": {"swarm": {"iterations": 0}}}, "paper.swarm.iterations"),
+        ({"paper": {"identification": {"poses": {"value": 47}}}}, "paper.identification.poses.value"),
+        ({"paper": {"identification": {"candidates": {"value": 84}}}}, "paper.identification.candidates"),
         ({"seed": -1}, "seed"),
         ({"sed": 1}, "sed"),
     ],
@@ -50,6 +53,16 @@ def test_a_wrong_key_type_or_range_is_named(change, place):
     with pytest.raises(InputError) as caught:
         validate(Config, content, "config.yaml")
     assert caught.value.place == place
+
+
+def test_too_few_poses_are_refused_with_how_many_are_needed_and_why():
+    """Two ended in a traceback, twenty in another one, or in an error that blamed the recordings."""
+    content = read_yaml(DEFAULT)
+    _merge(content, {"paper": {"identification": {"poses": {"value": 20}}}})
+    with pytest.raises(
+        InputError, match=r"found 20; 48 or more: the largest error model has 25 terms.*The paper has 85"
+    ):
+        validate(Config, content, "config.yaml")
 
 
 def _merge(content, change):

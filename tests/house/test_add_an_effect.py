@@ -15,7 +15,10 @@ from armscope.core.inputs import InputError
 from armscope.core.numerals import size_of
 from armscope.physics import registry
 from armscope.physics.drivers import KINDS
-from armscope.report.pages.diagnosis import write_report
+from armscope.physics.scene import Scene
+from armscope.recordings.table import unmeasured
+from armscope.report.pages.diagnosis import ORDER, write_report
+from armscope.robot import load_arm
 from armscope.verdict.sentences import exact_phrase, headline
 
 ROOT = Path(__file__).parents[2]
@@ -69,9 +72,13 @@ def test_the_pages_effect_is_found_by_name_with_its_clause_its_atlas_column_and_
     column = atlas.share[:, -1, atlas.drivers.index("hose pull")]
     assert atlas.locations[np.nanargmax(column)] == "joint 3"
     assert np.nanmax(column) > 0.9
-    page = write_report(verdict, tmp_path_factory.mktemp("report")).read_text(encoding="utf-8")
+    written = write_report(verdict, tmp_path_factory.mktemp("report"))
+    page = written.read_text(encoding="utf-8")
     assert "pull of the hoses" in page
     assert "commanded = wanted - pull x wanted x |wanted|" in page
+    order = written.with_name(ORDER).read_text(encoding="utf-8")
+    assert "Joint 3.</p>" in order, "no change is named: nothing stands in its place"
+    assert "<b>Joint 3</b>" in page
 
 
 def test_a_name_that_is_taken_is_refused_with_the_packages_name(site: Path) -> None:
@@ -91,3 +98,45 @@ def test_an_entry_point_that_leads_to_no_effect_is_refused(site: Path, value: st
     installed(site, MODULE, {"hose_pull": value})
     with pytest.raises(InputError, match=r"hose-pull: entry point armscope\.effects: hose_pull = "):
         registry.effects()
+
+
+def placed_and_evaluated() -> None:
+    """What a diagnosis asks of the effect."""
+    arm = load_arm("config/robots/six-axis.yaml")
+    poses = unmeasured(np.random.default_rng(1).uniform(-1, 1, (120, arm.n_motors)))
+    for placed in registry.library(arm, poses):
+        if placed.name == "hose_pull":
+            Scene(arm, poses).driver(placed.terms[0].products[0].driver)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        (
+            '    "transmission",',
+            '    "transmision",',
+            r"effect 'hose_pull': family: .*Did you mean 'transmission'",
+        ),
+        ("by {pull}", "by {pul}", r"hose-pull: effect 'hose_pull': clauses: found '{pul}'.*Did you mean 'pull'"),
+        ("by {pull}", "by {pull", r"hose-pull: effect 'hose_pull': clauses: .*a template"),
+        (
+            "angle * abs(angle)",
+            "angle[:-1]",
+            r"'hose_pull': driver 'hose pull': found 'shape \(119,\)'.*\(120,\)",
+        ),
+        (
+            "angle * abs(angle)",
+            "angle * float('nan')",
+            r"driver 'hose pull': found 'NaN or infinity in 120 rows'.*Give",
+        ),
+        ("angle * abs(angle)", "angel", r"driver 'hose pull', .*hose_pull.py, line 9: found .NameError: name 'angel'"),
+        ('f"joint {j}"', 'f"joint {jj}"', r"'hose_pull': place, .*hose_pull.py, line 15: found .NameError: name 'jj'"),
+        ("= Effect(", "= Efect(", r"entry point armscope\.effects: .*NameError: name 'Efect' is not defined"),
+    ],
+)
+def test_what_is_wrong_with_an_effect_is_one_clear_error(site: Path, right: str, wrong: str, told: str) -> None:
+    """It names effect, place, what was found and what is wanted: numpy's own words named none of them."""
+    assert right in MODULE
+    installed(site, MODULE.replace(right, wrong), POINTS)
+    with pytest.raises(InputError, match=told):
+        placed_and_evaluated()

@@ -46,7 +46,6 @@ STILL_FROM_ELSEWHERE = [
     "paper/closed_loop.py",
     "paper/evidence.py",
     "paper/full_pose.py",
-    "paper/sweep.py",
     "physics/clause.py",
     "physics/freeform.py",
     "physics/instrument.py",

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 import armscope
+from armscope import PredictionWarning
 from armscope.core.inputs import InputError
 from armscope.notebook.result import Diagnosed
 
@@ -52,6 +53,47 @@ def test_it_draws_and_names_the_figures_that_there_are(found):
     assert found.plot()._repr_svg_().startswith("<svg")
     with pytest.raises(InputError, match=r"'armm'.*'arm'"):
         found.plot("armm")
+
+
+def test_its_content_is_valid_json(found):
+    """What is no number is null, as in the file: the size of small errors of all families together is none."""
+    strict = json.dumps(found.to_json(), allow_nan=False)
+    assert json.loads(strict)["background"]["size"] is None
+
+
+def test_what_is_read_or_found_is_told_in_a_paragraph(found):
+    """Arrays of thousands of numbers say nothing in a notebook."""
+    arm, table = armscope.read_robot(ROBOT), armscope.read_recordings(RECORDINGS)
+    other = EXAMPLE.parent / "five-effects" / "recordings.csv"
+    results = {
+        "6 motors": arm,
+        "60 rows": table,
+        "calibration on 60 rows": armscope.calibrate(table, arm, level="offsets"),
+        "15 poses": armscope.choose_poses(arm, 15, candidates=100, starts=1),
+        "commands for 60 of 60 rows": armscope.compensate(found, RECORDINGS),
+        "five-effects": armscope.compare(table, other, robot=arm),
+    }
+    for told, result in results.items():
+        assert told in repr(result)
+        assert len(repr(result)) < 900
+        assert "\n" not in repr(result)
+        assert result._repr_html_().startswith("<p><b>")
+
+
+def test_points_out_of_reach_are_warned_of(found):
+    far = pd.DataFrame({"x_mm": [9700.0] * 3, "y_mm": 0.0, "z_mm": 0.0, "payload_kg": 0.0})
+    with pytest.warns(PredictionWarning, match="3 of 3 rows have no command: beyond reach"):
+        armscope.compensate(found, far)
+
+
+def test_an_error_in_a_data_frame_counts_its_own_rows():
+    frame = pd.read_csv(RECORDINGS)
+    with pytest.raises(InputError, match=r"data frame: row 0, column q1_rad: found 'x'"):
+        armscope.check(frame.assign(q1_rad=["x", *frame["q1_rad"][1:]]), ROBOT)
+    with pytest.raises(InputError, match=r"row 1, column id: .* row 0 has it, too"):
+        armscope.check(frame.assign(id=1), ROBOT)
+    with pytest.raises(InputError, match=r"data frame: columns: found no column q2_rad"):
+        armscope.diagnose(frame.drop(columns="q2_rad"), ROBOT)
 
 
 def test_it_compensates_and_chooses(found):

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from armscope.paper.audit import AuditScope, audit
+from armscope.paper.audit import audit
 from armscope.paper.audit import audit as audit_of_print
+from armscope.paper.audit_scope import AuditScope
 from armscope.paper.printed import predict_printed, printed_table2
 from armscope.world.trajectories import archimedes_spiral
 

@@ -100,6 +100,8 @@ def test_rows_are_selected_by_run_and_id(arm):
 def test_too_few_rows_and_another_arm_are_refused(arm):
     with pytest.raises(InputError, match="too few"):
         real_measurements(arm, recordings(arm, 6), seed=0)
+    with pytest.raises(InputError, match=r"2 identification poses, of 60 rows"):
+        real_measurements(arm, recordings(arm, 60), count=2, seed=0)  # the rows are not to blame
     table = recordings(arm, 50)
     seven = type(table)(**{**vars(table), "motor_angles": np.zeros((50, 7))})
     with pytest.raises(InputError, match="has 6 motors"):

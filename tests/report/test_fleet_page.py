@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from armscope.diagnosis import Settings
@@ -34,3 +35,15 @@ def test_diagnoses_of_a_simulated_fleet_end_in_one_page(tmp_path):
     assert heads[1].rpartition(">")[2].strip() == "of", "2 of 6 is read in one go"
     assert "No type has five arms" in page
     assert "no arm is far" not in page, "nobody was compared"
+
+
+@pytest.mark.parametrize("sizes", [[2.0, 5.5], [0.03, 3.1], [0.9, 1.2]])
+def test_the_colour_bar_has_plain_numbers(sizes):
+    of = {"minor": False, "type": "six-axis", "arm": ["a", "b"], "date": "", "run": "", "rms_at_tool_mm": sizes}
+    figure = fleet_figure(pd.DataFrame({"cause": ["joint_offset at joint 1", "backlash at joint 2"], **of}))
+    figure.canvas.draw()
+    told = [each.get_text() for each in figure.axes[1].yaxis.get_ticklabels(which="both")]
+    shown = [each for each in told if each]
+    assert shown
+    assert all(0.009 < float(each) < 11 for each in shown)
+    assert not any("e" in each for each in shown), "no power of ten"

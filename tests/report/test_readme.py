@@ -27,7 +27,8 @@ def results(tmp_path):
         },
     ]
     pd.DataFrame(rows).to_csv(tmp_path / "claims.csv", index=False)
-    joint = {"trajectory": "test 1", "reading": "rss", "check": "all together", "possible": False}
+    searched = {"searched": "4096 sets of corners", "thorough": True}
+    joint = {"trajectory": "test 1", "reading": "rss", "check": "all together", "possible": False, **searched}
     pd.DataFrame([joint]).to_csv(tmp_path / "audit.csv", index=False)
     names = ("identification", "test 1", "test 2", "test 3")
     rows = [

@@ -184,6 +184,7 @@ def fleet_parts():
 
 
 def files_of_part(wildcards):
-    """What the diagnoses of one job read."""
+    """What the diagnoses of one job read; a file that is not there costs its own arm only: the page says why."""
     some = members()[int(wildcards.part)::fleet_parts()]
-    return sorted({str(file) for member in some for file in (member.robot, member.recordings)})
+    files = {file for member in some for file in (member.robot, member.recordings)}
+    return sorted(str(file) for file in files if file.is_file())

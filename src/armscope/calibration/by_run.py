@@ -68,5 +68,10 @@ def misses_by_run(
     )
 
 
+def no_gain(misses: pd.DataFrame | None) -> bool:
+    """Whether poses that took no part are foretold no better than by base and tool alone."""
+    return misses is not None and bool(misses["held_out_mm"].iloc[0] >= misses["frames_only_mm"].iloc[0])
+
+
 def _mean(values: list[float]) -> float:
     return float(np.mean(values)) if values else np.nan

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
@@ -55,7 +56,7 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
     common = _common(calibration.arm, tool)
     by_urdf = {"urdf": "robot.urdf"}
     if calibration.arm.description.dh is None:
-        write_text(folder / "robot.urdf", _corrected_urdf(calibration, folder))
+        write_text(folder / "robot.urdf", _corrected_urdf(calibration, tool * 1e-3, folder))
         tip = {"tip": calibration.arm.description.tip, "hold_joints": calibration.arm.description.hold_joints}
         write_yaml(folder / "robot.yaml", {"name": common.pop("name"), **by_urdf, **tip, **common})
         written = ["robot.yaml", "robot.urdf"]
@@ -138,15 +139,16 @@ def _fresh_urdf(arm: Arm, tool: Array) -> str:
     for mass, centre, link in zip(arm.masses, arm.centres, robot.findall("link")[1:-1], strict=True):
         if mass > 0:
             set_inertial(link, mass, centre, np.zeros((3, 3)))
-    at_tool = np.eye(4)
-    at_tool[:3, 3] = tool
-    add_frame(robot, TIP, TOOL, at_tool)
+    add_frame(robot, TIP, TOOL, _at(tool))
     robot.insert(0, ET.Comment("effort and velocity limits are placeholders; masses are points, good for statics only"))
     return urdf_text(robot)
 
 
-def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
-    """The nominal URDF with the origins of the chain's joints corrected; meshes, names and other joints stay."""
+def _corrected_urdf(calibration: Calibration, tool: Array, folder: Path) -> str:
+    """The nominal URDF with its joints' origins corrected, and a link at the tool (3,), m; the rest stays.
+
+    A file that was calibrated before has the tool of then: the new one has a name of its own.
+    """
     nominal, arm = calibration.set_up.arm, calibration.arm
     file = Path(str(nominal.description.urdf))
     robot = ET.parse(file).getroot()
@@ -160,4 +162,15 @@ def _corrected_urdf(calibration: Calibration, folder: Path) -> str:
             origin = ET.SubElement(element, "origin")
         for name, words in origin_of(placement_of(origin) @ correction).items():
             origin.set(name, words)
+    taken = {link.get("name") for link in robot.findall("link")}
+    names = itertools.chain([TOOL], (f"{TOOL}_{n}" for n in itertools.count(2)))
+    name = next(name for name in names if name not in taken)
+    add_frame(robot, str(nominal.description.tip), name, _at(tool))
     return urdf_text(robot)
+
+
+def _at(tool: Array) -> Array:
+    """(4, 4) of a tool (3,), m, in the last frame."""
+    placement = np.eye(4)
+    placement[:3, 3] = tool
+    return placement

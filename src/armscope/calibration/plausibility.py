@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from armscope.calibration.by_run import no_gain
 from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.model import GRAVITY, Level, SetUp
 from armscope.calibration.result import SHOWN
@@ -80,6 +81,6 @@ def doubtful_loads(solved: Solved, level: Level, covariance: Array) -> list[str]
 
 def no_held_out_gain(misses: pd.DataFrame | None) -> list[str]:
     """A note where poses that took no part are foretold no better than by the nominal arm."""
-    if misses is None or not misses["held_out_mm"].iloc[0] >= misses["frames_only_mm"].iloc[0]:
+    if not no_gain(misses):
         return []
     return ["on poses that took no part it does no better than base and tool alone: the nominal arm serves as well"]

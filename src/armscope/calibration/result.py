@@ -9,22 +9,25 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.calibration.by_run import ALL
+from armscope.calibration.by_run import ALL, no_gain
 from armscope.calibration.confounding import Confounded
-from armscope.calibration.constants import CALIBRATING
+from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.geometry import nominal_values
 from armscope.calibration.model import Level, SetUp
 from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
+from armscope.core.told import InWords
 from armscope.core.types import Array
 from armscope.robot import Arm
 
 SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
 """Factor and unit for reading."""
+UNDETERMINED = {"m": SIZES.length_m, "rad": SIZES.angle_rad, "rad/(N m)": SIZES.compliance_rad_nm}
+"""Standard errors from which rows say less of a constant than what is plausible of any arm."""
 
 
-@dataclass(frozen=True, eq=False)
-class Calibration:
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibration(InWords):
     """A calibrated arm.
 
     Attributes:
@@ -75,6 +78,11 @@ class Calibration:
         return rms_distance(self.residuals)
 
     @property
+    def nominal_serves(self) -> bool:
+        """Whether constants were fitted that help no pose that took no part: base and tool alone do as well."""
+        return self.level != "nominal" and no_gain(self.misses)
+
+    @property
     def table(self) -> pd.DataFrame:
         """One row per fitted parameter: name, unit, value (of the arm's constants: the change), stderr, nominal.
 
@@ -115,6 +123,16 @@ class Calibration:
         names = np.array(self.set_up.names)[self.free]
         return pd.DataFrame(self.covariance, columns=names).assign(parameter=names)[["parameter", *names]]
 
+    def sentences(self) -> tuple[str, ...]:
+        """Rows and parameters, what it leaves, why it is doubtful, and what holds the rest."""
+        held = f", {len(self.held)} more held at nominal" if self.held else ""
+        return (
+            f"{_about(self)}{held}.",
+            f"{_misses(self)[0]}.",
+            *(f"Doubtful: {doubt}." for doubt in self.doubts),
+            "text() says all of it, table has the numbers, arm is the corrected arm.",
+        )
+
     def text(self) -> str:
         """The calibration in words, lengths in mm and angles in mrad."""
         return in_words(self)
@@ -123,8 +141,7 @@ class Calibration:
 def in_words(calibration: Calibration) -> str:
     """Lengths in mm, angles in mrad, compliances in µrad/(N m); what D-H constants become as in robot.yaml."""
     arm = calibration.set_up.arm
-    rows, parameters = len(calibration.set_up), int(calibration.free.sum())
-    lines = [f"{arm.name}: {calibration.level} calibration on {rows} rows, {parameters} parameters"]
+    lines = [_about(calibration)]
     lines += _misses(calibration)
     if arm.description.urdf is not None and arm.description.actuation is None:
         motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
@@ -137,9 +154,15 @@ def in_words(calibration: Calibration) -> str:
     lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
     lines += [_parameter(*row) for row in calibration.table.itertuples(index=False)]
     if calibration.held:
-        lines.append("held at nominal: from these poses not told apart from what moves the tool alike:")
+        lines.append("held at nominal: from these poses not told apart from what moves the tool alike (the standard")
+        lines.append("errors above are right if it is exactly nominal: where it is off, those named here take it up):")
         lines += [f"  {each.text()}" for each in calibration.held]
     return "\n".join(lines)
+
+
+def _about(calibration: Calibration) -> str:
+    rows, parameters = len(calibration.set_up), int(calibration.free.sum())
+    return f"{calibration.set_up.arm.name}: {calibration.level} calibration on {rows} rows, {parameters} parameters"
 
 
 def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float) -> str:
@@ -150,7 +173,7 @@ def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float
         if name.startswith("joint "):  # the value is a change
             after = nominal + value
             becomes = f"{np.degrees(after):.5g} deg" if unit == "rad" else f"{1e3 * after:.6g} mm"
-            beside = f"  (becomes {becomes})"
+            beside = f"  (becomes {becomes})" if stderr < UNDETERMINED[unit] else "  (undetermined: see its error)"
     return f"  {name:<28} {value * factor:12.5g} +- {stderr * factor:.2g} {shown}{beside}"
 
 

@@ -13,6 +13,7 @@ from armscope.check.quantities import of_quantities
 from armscope.check.suspicion import BESIDE, Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.check.targets import named_row_by_row
+from armscope.core.files import plain_values
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.robot import Arm
@@ -38,12 +39,13 @@ class CheckReport:
     def to_json(self) -> dict[str, Any]:
         """The contents, how they fit the arm, and what looks wrong, as plain data."""
         fit = None if self.consistency is None else asdict(self.consistency)
-        return {
+        content: dict[str, Any] = {
             "problems": self.has_problems,
             "suspicions": [vars(each) for each in self.suspicions],
             "contents": asdict(self.contents),
             "consistency": fit and {key: value for key, value in fit.items() if key != "suspicions"},
         }
+        return dict(plain_values(content))
 
     def text(self) -> str:
         """The report as plain text."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from pathlib import Path
 from typing import Annotated, Literal
@@ -119,25 +120,29 @@ def calibrate(
             print(f"{found.weight}: {found.text()}", file=sys.stderr)
     if not consistency.orientations and not orientation:  # and it was said
         table = replace(table, orientation=None)
-    calibration = calibrated(
+    fit = functools.partial(
+        calibrated,
         arm,
         table,
-        level,
         robust=robust,
         one_base=one_base,
         tool_per_run=tool_per_run,
         orientation=orientation,
-        splits=splits,
     )
+    calibration = fit(level, splits=splits)
     if calibration.doubts and not anyway:
         answer = f"a {level} calibration that should not be used"
         cure = "`armscope check` and `armscope diagnose` may say why; --anyway writes it all the same."
         raise InputError(recordings, "", answer, "; ".join(calibration.doubts), cure)
-    paths = export(calibration, output, target)
+    no_constants = calibration.nominal_serves and not anyway
+    paths = export(fit("nominal") if no_constants else calibration, output, target)
     write_table(output / "calibration.csv", calibration.table)
     write_table(output / "held.csv", calibration.held_table)
     write_table(output / "covariance.csv", calibration.covariance_table)
     if calibration.misses is not None:
         write_table(output / "misses.csv", calibration.misses, digits=6)
     print(calibration.text())
+    if no_constants:
+        print("these constants are not written, since they help no other pose: robot.yaml, robot.urdf and frames.yaml")
+        print("have base and tool fitted to the nominal arm; --anyway writes the constants")
     print("\n".join(str(path) for path in paths))

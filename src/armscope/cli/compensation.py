@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -235,14 +234,8 @@ def _tell(result: Compensated) -> None:
             print("all inside the identified range")
         else:
             print(f"up to {outside:.2g} standard deviations outside the identified range")
-    # one line per cause: how far rows lie outside differs from row to row
-    refused = np.flatnonzero(~reached)
-    shortened = [re.sub(r" by \S+ standard deviations", "", result.reasons[row]) for row in refused]
-    causes = np.array(shortened, dtype=object)
-    told = np.unique(causes)
-    for cause in told[:MOST_CAUSES]:
-        rows = refused[causes == cause]
-        reason = result.reasons[rows[0]] if len(set(result.reasons[rows])) == 1 else cause
+    told = result.refused
+    for rows, reason in told[:MOST_CAUSES]:
         which = f"line {rows[0] + 2}" if len(rows) == 1 else f"{len(rows)} rows, lines {_ranges(rows + 2)}"
         print(f"refused: {which} of the file: {reason}")
     if len(told) > MOST_CAUSES:

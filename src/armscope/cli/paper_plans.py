@@ -16,7 +16,7 @@ from armscope.cli.paper_settings import (
 )
 from armscope.cli.studies import parsed
 from armscope.core.config import Sensitivity, Tracker
-from armscope.paper.audit import AuditScope
+from armscope.paper.audit_scope import AuditScope
 from armscope.paper.scenarios import Scenario, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting
 from armscope.paper.study import Sizes, StudyPlan

@@ -9,7 +9,9 @@ from typing import Any, Literal
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
+from armscope.core.files import plain_values
 from armscope.core.numerals import size_of
+from armscope.core.told import InWords
 from armscope.core.words import enumerated
 from armscope.verdict.constants import WORDS
 from armscope.verdict.wording import capitalised, places_in_words
@@ -106,8 +108,8 @@ class Left:
     changes_mm: float
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(InWords):
     """What changed.
 
     Attributes:
@@ -144,8 +146,15 @@ class Comparison:
     noisier: tuple[Noisier, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        """As plain data."""
-        return {"format": "armscope comparison 1", **asdict(self)}
+        """As plain data, null for what is no number."""
+        content: dict[str, Any] = plain_values({"format": "armscope comparison 1", **asdict(self)})
+        return content
+
+    def sentences(self) -> tuple[str, ...]:
+        """The answer, on which rows, and what says more."""
+        rows = ", ".join(f"{name} ({count} rows)" for name, count in zip(self.names, self.rows, strict=True))
+        about = f"{self.arm}: {rows}; noise {self.noise_mm:.3g} mm per axis."
+        return self.headline, about, "text() says every change with its numbers, to_json() gives them as plain data."
 
     @property
     def headline(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -11,14 +12,16 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.path import Frame
+from armscope.core.averages import rms
 from armscope.core.inputs import InputError
-from armscope.core.types import Array
+from armscope.core.told import InWords
+from armscope.core.types import Array, Indices
 from armscope.recordings.columns import angle_columns
 from armscope.robot import Arm
 
 
-@dataclass(frozen=True, eq=False)
-class Compensated:
+@dataclass(frozen=True, eq=False, repr=False)
+class Compensated(InWords):
     """Commands for N rows of a path; NaN in rows that are refused.
 
     Attributes:
@@ -71,6 +74,35 @@ class Compensated:
         """(N,) rows that have commands."""
         reached: NDArray[np.bool_] = self.reasons == ""
         return reached
+
+    @property
+    def refused(self) -> list[tuple[Indices, str]]:
+        """Rows without a command by cause, one reason each: how far rows lie outside differs from row to row."""
+        rows = np.flatnonzero(~self.reached)
+        causes = np.array([re.sub(r" by \S+ standard deviations", "", self.reasons[row]) for row in rows], dtype=object)
+        by_cause = []
+        for cause in np.unique(causes):
+            of_cause = rows[causes == cause]
+            alike = len(set(self.reasons[of_cause])) == 1
+            by_cause.append((of_cause, str(self.reasons[of_cause[0]]) if alike else str(cause)))
+        return by_cause
+
+    @property
+    def refusals(self) -> list[str]:
+        """How many rows have no command, and why: a sentence per cause."""
+        return [f"{len(rows)} of {len(self.reasons)} rows have no command: {why}" for rows, why in self.refused]
+
+    def sentences(self) -> tuple[str, ...]:
+        """How many rows have commands, what these leave, and where others say why they have none."""
+        reached = self.reached
+        left = ""
+        if reached.any():
+            before, after = (rms(miss[reached]) * 1e3 for miss in (self.uncorrected, self.residual))
+            left = f"; RMS of the distance {before:.3g} mm without them, {after:.2g} mm expected with them"
+        return (
+            f"{self.arm.name}: commands for {reached.sum()} of {len(reached)} rows of a path{left}.",
+            "to_table() is what `armscope compensate` writes, with the reason where a row has none.",
+        )
 
     def to_table(self, rows: slice = slice(None)) -> pd.DataFrame:
         """One row per row of the path, refused ones with their reason and without commands.

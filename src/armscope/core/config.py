@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
 import pydantic
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from armscope.core.inputs import Strict
 
@@ -41,13 +41,33 @@ class Ensemble(Strict):
     seeds: Count = 3
 
 
-class Identification(Strict):
-    """The identification poses."""
+FEWEST_POSES = 48
+"""The outlook's largest error model has 25 terms: 1.5 rows each must be left to it in every one of five folds."""
 
-    poses: Stated[Count]
+
+def _enough(poses: int) -> int:
+    if poses < FEWEST_POSES:
+        rule = (
+            f"{FEWEST_POSES} or more: the largest error model has 25 terms, and a fifth of the rows is held out from it"
+        )
+        raise ValueError(f"{rule}. The paper has 85")
+    return poses
+
+
+class Identification(Strict):
+    """The identification poses, and from how many possible ones they are chosen."""
+
+    poses: Stated[Annotated[int, Field(json_schema_extra={"minimum": FEWEST_POSES}), AfterValidator(_enough)]]
     candidates: Stated[Count]
     margin_rad: Stated[Annotated[float, Field(ge=0)]]
     motor_6_rad: Stated[Positive]
+
+    @pydantic.field_validator("candidates")
+    @classmethod
+    def _as_many_as_poses(cls, candidates: Stated[int], info: pydantic.ValidationInfo) -> Stated[int]:
+        if "poses" in info.data and candidates.value < info.data["poses"].value:
+            raise ValueError(f"at least as many as poses, {info.data['poses'].value}: each is used once")
+        return candidates
 
 
 class Trajectories(Strict):
@@ -77,7 +97,7 @@ class Swarm(Strict):
 
     seeds: Count = 20
     particles: Annotated[int, Field(ge=2)] = 100
-    iterations: Annotated[int, Field(ge=0)] = 200
+    iterations: Count = 200
     update: Literal["constriction", "inertia", "original"] = "constriction"
     neighbourhood: Literal["gbest", "ring"] = "gbest"
     velocity_clamp: Annotated[float, Field(gt=0)] | None = None

@@ -272,12 +272,12 @@ def write_json(path: Path | str, content: Any) -> None:
 
 def as_json(content: Any) -> str:
     """JSON as `write_json` writes it."""
-    return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False)
+    return json.dumps(plain_values(content), indent=2, ensure_ascii=False, allow_nan=False)
 
 
 def yaml_text(content: Any) -> str:
     """YAML in the order of ``content``."""
-    return str(yaml.dump(_plain(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
+    return str(yaml.dump(plain_values(content), Dumper=_DUMPER, sort_keys=False, allow_unicode=True, width=120))
 
 
 def write_yaml(path: Path | str, content: Any) -> None:
@@ -289,11 +289,12 @@ _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 """The one in C where there is one: a model of many waves has thousands of lines."""
 
 
-def _plain(value: Any) -> Any:
+def plain_values(value: Any) -> Any:
+    """As JSON has it: plain numbers, lists and texts as keys; null for what is no number."""
     if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): plain_values(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return type(value)(map(plain_values, value)) if type(value) in (list, tuple) else [*map(plain_values, value)]
     if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
+        return plain_values(value.tolist())
     return None if isinstance(value, float) and not np.isfinite(value) else value

@@ -58,10 +58,22 @@ class InputError(ValueError):
     """
 
     def __init__(self, file: object, place: str, found: object, rule: str, cure: str = "") -> None:
+        if file == DATA_FRAME:
+            place, rule, cure = map(_of_a_frame, (place, rule, cure))
         self.file, self.place, self.found, self.rule, self.cure = str(file), place, found, rule, cure
         where = f"{file}: {place}" if place else str(file)
         text = f"{where}: found {_quote(found)}; {rule}." + (f" {cure}" if cure else "")
         super().__init__(spelt_out(text))  # goes to a terminal
+
+
+DATA_FRAME = "data frame"
+"""What a table is called that a program gives: its rows count from 0, and no line of a file holds its header."""
+
+
+def _of_a_frame(text: str) -> str:
+    """Lines of a CSV file as rows of a data frame."""
+    own = re.sub(r"\brow (\d+)", lambda found: f"row {int(found.group(1)) - 2}", text)
+    return re.sub(r"\bline 1\b", "columns", own)
 
 
 def _quote(value: object) -> str:

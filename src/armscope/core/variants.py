@@ -30,7 +30,7 @@ class Variant(Strict):
     order: int = Field(ge=1)
     space: Literal["cartesian", "angular"]
     particles: int = Field(ge=2)
-    iterations: int = Field(ge=0)
+    iterations: int = Field(ge=1)
     update: Literal["constriction", "inertia", "original"]
     neighbourhood: Literal["gbest", "ring"]
     basis: Literal["raw", "standardised", "qr"] | None = None

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ConfigDict, RootModel
 
+from armscope.core.files import plain_values
 from armscope.core.inputs import InputError, format_of, validate
 from armscope.motion.verdict import FORMAT, MotionVerdict
 from armscope.verdict.contract import AlwaysThere
@@ -28,7 +29,7 @@ def schema() -> dict[str, Any]:
 
 def to_json(verdict: MotionVerdict) -> dict[str, Any]:
     """The content of verdict.json."""
-    content: dict[str, Any] = MotionVerdictFile(verdict).model_dump(by_alias=True)
+    content: dict[str, Any] = plain_values(MotionVerdictFile(verdict).model_dump(by_alias=True))
     return content
 
 

@@ -26,10 +26,11 @@ from armscope.compensation.physical import Identified, identified_beside, identi
 from armscope.compensation.predicting import predict_file, predict_rows
 from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options
-from armscope.core.inputs import InputError
+from armscope.core.inputs import DATA_FRAME, InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
+from armscope.notebook.chosen import ChosenPoses
 from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.notes import PosesWarning, with_notes
@@ -37,7 +38,6 @@ from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model_file import load_model
 from armscope.poses.body_words import surroundings_notes
-from armscope.poses.choose import Choice
 from armscope.poses.options import PoseOptions
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
@@ -80,7 +80,7 @@ def read_recordings(recordings: Table, robot: Robot | None = None, measured: boo
     if isinstance(recordings, Recordings):
         return recordings
     if isinstance(recordings, pd.DataFrame):
-        return as_recordings(recordings, "data frame", n_motors, measured)
+        return as_recordings(recordings, DATA_FRAME, n_motors, measured)
     if not isinstance(recordings, str | Path):
         cure = "The recordings come first, then the robot."
         raise InputError("recordings", "", type(recordings).__name__, "a table, or the path of one", cure)
@@ -193,22 +193,28 @@ def compensate(
         options: those of the command line: frame, pose, start_rad, allowed_outside, separate_points.
 
     Returns:
-        Commands, what they will reach, and which rows have none; `to_table()` is what the command writes.
+        Commands, what they will reach, and which rows have none; `to_table()` is what the command writes. Notes, and
+        why rows have no command, are warnings.
 
     Raises:
         InputError: something that can't be used.
     """
     refuse_unknown("compensate", options, [each.name for each in fields(Options)])
-    chosen = Options(**options)
+    found = _compensated(model, path, recordings, Options(**options))
+    return with_notes((found, (*found.notes, *found.refusals)))
+
+
+def _compensated(
+    model: Model, path: WantedPath | pd.DataFrame | Path | str, recordings: Table | None, chosen: Options
+) -> Compensated:
     if isinstance(model, str | Path) and str(model).endswith(".json"):
         error_model: ErrorModel = load_error_model(model)
         return compensate_black_box(error_model, _wanted(path, error_model.arm), chosen)
     fitted = _fitted(model)
+    identified = _identified(model)
     if recordings is not None:
         identified = identified_on(fitted.arm, usable_rows(fitted.arm, read_recordings(recordings)).recordings)
-    elif (known := _identified(model)) is not None:
-        identified = known
-    else:
+    if identified is None:
         cure = "Give the recordings of the diagnosis."
         raise InputError("recordings", "", "nothing", "the identified range must be known", cure)
     return compensate_physical(fitted, identified, _wanted(path, fitted.arm), chosen)
@@ -234,9 +240,8 @@ def compare(
     if not recordings:
         raise InputError("compare", "", "no recordings", "two or more of one arm are compared")
     arm = read_robot(arm_for(robot, recordings[0]))
-    named = list(names) or [
-        str(each) if isinstance(each, str | Path) else f"{n}" for n, each in enumerate(recordings, 1)
-    ]
+    numbered = enumerate(recordings, 1)
+    named = list(names) or [str(each) if isinstance(each, str | Path) else f"{n}" for n, each in numbered]
     if len(set(named)) != len(recordings):
         raise InputError("names", "", named, "as many different names as recordings")
     tables = [read_recordings(each, arm) for each in recordings]
@@ -272,10 +277,10 @@ def _identified(model: Model) -> Identified | None:
 def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
     if isinstance(path, WantedPath):
         return path
-    return as_path(path, "data frame", arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
+    return as_path(path, DATA_FRAME, arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
 
 
-def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
+def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:
     """The poses that show a set of effects best: `armscope poses`, whose notes are warnings here.
 
     Args:
@@ -293,4 +298,4 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> Choice:
     refuse_unknown("choose_poses", options, [each.name for each in fields(PoseOptions)])
     arm = read_robot(robot)
     choice = PoseOptions(**options).choose(arm, count)
-    return with_notes((choice, surroundings_notes(arm, choice.around)), PosesWarning)
+    return with_notes((ChosenPoses(**vars(choice)), surroundings_notes(arm, choice.around)), PosesWarning)

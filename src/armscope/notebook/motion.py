@@ -9,12 +9,12 @@ from typing import Any, TypeGuard
 import pandas as pd
 
 from armscope.check.motions import MotionCheck, check_moving
-from armscope.core.inputs import InputError
+from armscope.core.inputs import DATA_FRAME, InputError
 from armscope.core.outputs import Delivery
+from armscope.core.told import paragraphs, table
 from armscope.motion.export import write_motion
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.predicting import torque_table
-from armscope.notebook.html import paragraphs, table
 from armscope.notebook.notes import with_notes
 from armscope.recordings.first_lines import is_motion, is_motion_table
 from armscope.recordings.motions import Motions, as_motions, read_motions
@@ -134,5 +134,5 @@ def _read(motions: MotionTable, n_motors: int | None, measured: bool = True) -> 
     if isinstance(motions, Motions):
         return motions
     if isinstance(motions, pd.DataFrame):
-        return as_motions(motions, "data frame", n_motors, measured)
+        return as_motions(motions, DATA_FRAME, n_motors, measured)
     return read_motions(motions, n_motors, measured)

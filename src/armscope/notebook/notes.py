@@ -10,7 +10,7 @@ Given = TypeVar("Given")
 
 
 class PredictionWarning(UserWarning):
-    """What was assumed or left out of a prediction: `armscope predict` says it on standard error."""
+    """What was assumed or left out of a prediction or of commands: the command says it on the terminal."""
 
 
 class PosesWarning(UserWarning):

@@ -9,8 +9,9 @@ import pandas as pd
 
 from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import predict_rows
+from armscope.core.inputs import DATA_FRAME
 from armscope.core.outputs import Delivery
-from armscope.notebook.html import paragraphs, table
+from armscope.core.told import paragraphs, table
 from armscope.notebook.notes import with_notes
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
@@ -92,6 +93,6 @@ class Diagnosed(Diagnosis):
         """
         motors = self.model.arm.n_motors
         if isinstance(poses, pd.DataFrame):
-            poses = as_recordings(poses, "data frame", motors, measured=False)
+            poses = as_recordings(poses, DATA_FRAME, motors, measured=False)
         rows = poses if isinstance(poses, Recordings) else read_recordings(poses, motors, measured=False)
         return with_notes(predict_rows(self.model, rows, identified_on(self.model.arm, self.recordings)))

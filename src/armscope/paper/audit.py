@@ -22,6 +22,7 @@ import pandas as pd
 from scipy.optimize import Bounds, differential_evolution
 
 from armscope.core.types import Array
+from armscope.paper.audit_scope import AuditScope
 from armscope.paper.printed import (
     AXES,
     HALF_DIGIT_MM,
@@ -44,29 +45,6 @@ Predictions = dict[str, tuple[Array, Array]]
 """By model: predicted errors (variants, N, 3), mm, and how far the rounding of the coefficients may move each."""
 
 
-@dataclass(frozen=True)
-class AuditScope:
-    """What is scanned, mm. The box bounds where a tool of this arm can be at all (`assumed`; see `armscope.robot`).
-
-    Attributes:
-        rises: values tried for the change of the third coordinate of trajectories II and III.
-        low, high: box of the corners of trajectory I and of the identification poses.
-        corner_samples: sets of three corners tried for trajectory I.
-        first_corner, spiral_starts: as printed.
-        seed: of the corner sets.
-        search_generations: of the search for the best corners, where none of the samples obeys.
-    """
-
-    rises: tuple[float, ...] = tuple(float(rise) for rise in np.arange(-1500, 1501, 20))
-    low: tuple[float, float, float] = (-2500.0, -2500.0, -1500.0)
-    high: tuple[float, float, float] = (2500.0, 2500.0, 3000.0)
-    corner_samples: int = 4096
-    first_corner: tuple[float, float, float] = (1100.0, 800.0, 600.0)
-    spiral_starts: tuple[tuple[float, float, float], ...] = ((1200.0, -600.0, 600.0), (500.0, 500.0, 1400.0))
-    seed: int = 2006
-    search_generations: int = 100
-
-
 def audit(scope: AuditScope | None = None) -> pd.DataFrame:
     """What of the printed numbers agrees, for each trajectory, reading of "RMS", axis and check, and for all together.
 
@@ -77,7 +55,8 @@ def audit(scope: AuditScope | None = None) -> pd.DataFrame:
         ("FDP(CI)", "SDP(CI)", "FDP(CI) and SDP(CI)", "all together"), varied (what was scanned), tried (how many
         variants), consistent (share of them that obey the inequalities), possible (whether any does, after a search for
         the best), best_gap_mm (by how much the best misses; 0 where one obeys), best_variant (which), allowed_low_mm,
-        allowed_high_mm (where |f| or |f - g| must lie for the best variant), best_value_mm (where it does lie).
+        allowed_high_mm (where |f| or |f - g| must lie for the best variant), best_value_mm (where it does lie); and of
+        all rows searched (the scope in words) and thorough (whether it is enough to say that there is none).
     """
     scope = scope or AuditScope()
     printed = printed_table2().set_index(["model", "trajectory", "axis"])["printed"]
@@ -91,7 +70,7 @@ def audit(scope: AuditScope | None = None) -> pd.DataFrame:
             rows += [audited.row([each]) for each in single]
             rows.append(audited.row(single))
     rows += _identification_rows(printed, scope)
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows).assign(searched=scope.in_words, thorough=scope.thorough)
 
 
 @dataclass(frozen=True)

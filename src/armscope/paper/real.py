@@ -69,9 +69,9 @@ def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 
     n_chosen = int(min(count / rows_each, LARGEST_SHARE * len(first_rows)))
     targets, target = np.unique(recordings.target, return_inverse=True)
     if n_chosen * rows_each < 6 + 3 * len(targets) + 4:
-        raise InputError(
-            recordings.source, "", f"{len(recordings)} rows", "too few to fit frames and models and to hold some out"
-        )
+        by_table = LARGEST_SHARE * len(first_rows) < count / rows_each
+        found = f"{len(recordings)} rows" if by_table else f"{count} identification poses, of {len(recordings)} rows"
+        raise InputError(recordings.source, "", found, "too few to fit frames and models and to hold some out")
     rng = np.random.default_rng(seed)
     candidates = first_rows
     if len(candidates) > MOST_CANDIDATES:

@@ -27,7 +27,7 @@ def run_variant(
 
     Returns:
         Columns id, sweep, varied, model, trajectory, seed, rms_mm (3D), least_squares_mm (3D, of the same model),
-        excess_percent (of the fit's RMS over least squares on the identification rows, the worst swarm).
+        excess_percent (of rms_mm over least_squares_mm; below zero on rows that a worse fit happens to meet better).
     """
     robot = measurements.robots[0]
     rows = measurements.identification
@@ -42,8 +42,7 @@ def run_variant(
     optimum = spatial[spatial["method"] == "least squares"].set_index("trajectory")["rms_mm"]
     swarms = spatial[spatial["method"] == fit.method][["model", "trajectory", "seed", "rms_mm"]].copy()
     swarms["least_squares_mm"] = optimum.reindex(swarms["trajectory"]).to_numpy()
-    worst = pd.Series(fit.excess_percent.max(axis=1), index=list(fit.seeds))
-    swarms["excess_percent"] = worst.reindex(swarms["seed"]).to_numpy()
+    swarms["excess_percent"] = 100 * (swarms["rms_mm"] / swarms["least_squares_mm"] - 1)
     swarms.insert(0, "id", variant.id)
     swarms.insert(1, "sweep", variant.sweep)
     swarms.insert(2, "varied", variant.varied)

@@ -12,6 +12,11 @@ from armscope.core.types import Array
 from armscope.physics.effect import Cure, Part
 from armscope.physics.loaded_arm import LoadedArm
 
+INSTRUCTION_WORDS = (
+    "location", "zero", "ratio", "size", "soft_turn", "coefficient", "jump", "row", "correction",
+)  # fmt: skip
+"""What the instruction of a work order may name (`armscope.verdict.tasks`)."""
+
 
 def from_commands(scene: LoadedArm, part: Part) -> Array:
     """(N, m) motor angles to command so that a part leaves nothing at the scene's wanted angles, rad; first order."""

@@ -25,6 +25,7 @@ from armscope.physics import (
 from armscope.physics.drivers import KINDS
 from armscope.physics.effect import Effect, Placed
 from armscope.physics.learned_sizes import with_learned_sizes
+from armscope.physics.packages import held_to_contract
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -50,11 +51,12 @@ def effects() -> tuple[Effect, ...]:
     """armscope's own effects, then those of installed packages, whose drivers are known from then on.
 
     Raises:
-        InputError: a package's entry point can't be loaded, is no effect, or takes a name that is taken.
+        InputError: a package's entry point can't be loaded, is no effect, takes a name that is taken, or breaks the
+            contract (`armscope.physics.packages`).
     """
     known = list(EFFECTS)
     for point in sorted(entry_points(group=GROUP), key=lambda point: (point.name, point.value)):
-        for effect in _loaded(point):
+        for effect in (held_to_contract(each, _package(point)) for each in _loaded(point)):
             taken = [name for name in (effect.name,) if name in {each.name for each in known}]
             taken += [kind for kind in effect.drivers if kind in KINDS]
             if taken:
@@ -69,8 +71,8 @@ def effects() -> tuple[Effect, ...]:
 def _loaded(point: EntryPoint) -> Iterator[Effect]:
     try:
         loaded = point.load()
-    except (ImportError, AttributeError) as error:
-        raise _refused(point, str(error), "it must be importable") from error
+    except Exception as error:  # whatever a module does wrong as it is imported
+        raise _refused(point, f"{type(error).__name__}: {error}", "it must be importable") from error
     for effect in loaded if isinstance(loaded, Iterable) else (loaded,):
         if not isinstance(effect, Effect):
             raise _refused(point, type(effect).__name__, "it must be an Effect, or several")
@@ -78,8 +80,11 @@ def _loaded(point: EntryPoint) -> Iterator[Effect]:
 
 
 def _refused(point: EntryPoint, found: str, rule: str, cure: str = "Mend or uninstall that package.") -> InputError:
-    package = point.dist.name if point.dist else "an installed package"
-    return InputError(package, f"entry point {GROUP}: {point.name} = {point.value}", found, rule, cure)
+    return InputError(_package(point), f"entry point {GROUP}: {point.name} = {point.value}", found, rule, cure)
+
+
+def _package(point: EntryPoint) -> str:
+    return point.dist.name if point.dist else "an installed package"
 
 
 def effect_named(name: str) -> Effect | None:

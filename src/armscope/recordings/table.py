@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
+from armscope.core.told import InWords
 from armscope.core.types import Array, Indices
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.columns import Names, as_in_contract, column_named, name_meant_by
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
 NO_RUNS = "The table names no runs (column run): without --run all of its rows are taken."
 
 
-@dataclass(frozen=True, eq=False)
-class Recordings:
+@dataclass(frozen=True, eq=False, repr=False)
+class Recordings(InWords):
     """N measured points of an arm with m motors; SI units; NaN where a context value was not recorded.
 
     Attributes:
@@ -68,6 +69,21 @@ class Recordings:
 
     def __len__(self) -> int:
         return len(self.motor_angles)
+
+    def sentences(self) -> tuple[str, ...]:
+        """Rows, motors, runs, what was recorded, and who takes it."""
+        points = int(np.isfinite(self.positions).all(axis=1).sum())
+        counts = [(points, "with a point"), (int(self.oriented.sum()), "with an orientation")]
+        context = ("time", "temperature", "payload", "approach", "speed", "torque")
+        there = [name for name in context if getattr(self, name) is not None]
+        runs, targets = (len(set(each.tolist())) for each in (self.run, self.target))
+        return (
+            f"{self.source or 'recordings'}: {len(self)} rows of {self.n_motors} motor angles"
+            + "".join(f", {count} {what}" for count, what in counts if count) + ".",
+            f"Runs: {runs}; targets: {targets}; also recorded: {', '.join(there) or 'nothing'}.",
+            *(f"Note: {note}." for note in self.notes),
+            "Next: armscope.check(recordings, robot)." if points else "Next: armscope.predict(model, poses).",
+        )  # fmt: skip
 
     @property
     def quaternions(self) -> Array:

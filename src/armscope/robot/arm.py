@@ -10,6 +10,8 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.core.inputs import InputError
+from armscope.core.numerals import size_of
+from armscope.core.told import InWords
 from armscope.core.types import Array
 from armscope.robot.arm_type import ArmType
 from armscope.robot.constants import ARMS
@@ -18,8 +20,8 @@ from armscope.robot.description_file import load_description
 from armscope.robot.model import TIP, dh_halves, pinocchio_model
 
 
-@dataclass(frozen=True, eq=False)
-class Arm:
+@dataclass(frozen=True, eq=False, repr=False)
+class Arm(InWords):
     """An arm of n chain joints moved by m motors; SI units.
 
     The chain is ``prod_j [before_j * Rz(theta_j)] * tip * tool``, with theta = actuation @ q for motor angles q.
@@ -53,6 +55,17 @@ class Arm:
     limits: Array
     sigma: float | None
     type: ArmType = field(default_factory=ArmType)
+
+    def sentences(self) -> tuple[str, ...]:
+        """Motors, reach, what is stated of masses and noise, and who takes it."""
+        rows = "D-H rows" if self.description.dh else f"a URDF up to {self.description.tip!r}"
+        masses = "masses stated" if self.has_masses else "no masses stated"
+        noise = "noise not stated" if self.sigma is None else f"noise {size_of(self.sigma, 'm')} per axis"
+        return (
+            f"{self.name}: an arm of {self.n_motors} motors from {rows}.",
+            f"Reach {self.reach:.3g} m, {masses}, {noise}.",
+            "Next: armscope.check, diagnose or calibrate (recordings, arm); armscope.choose_poses(arm).",
+        )
 
     @property
     def name(self) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 from pydantic.json_schema import GenerateJsonSchema
 
+from armscope.core.files import plain_values
 from armscope.core.inputs import InputError, format_of, validate
 from armscope.core.types import Number
 from armscope.verdict.effects import Alternative, Cause, FoundEffect, Parameter, Specific
@@ -165,7 +166,8 @@ def to_json(verdict: Verdict) -> dict[str, Any]:
         orientation=None if seen is None else OrientationFile(**vars(seen), held_out_rms_mrad=turns),
         fitted_rms_mm=BeforeAfter(before=verdict.residual_before_mm, after=verdict.residual_after_mm),
     )
-    return file.model_dump(by_alias=True)
+    content: dict[str, Any] = plain_values(file.model_dump(by_alias=True))  # JSON has no NaN: null, as in the file
+    return content
 
 
 def from_json(content: Any, source: object) -> Verdict:

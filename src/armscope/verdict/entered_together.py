@@ -61,7 +61,7 @@ def in_one_step(jobs: Sequence[Job]) -> Task:
         tasks[0],
         what=f"Only together: {'; '.join(uncapitalised(task.what) for task in tasks)}",
         place=places_in_words(list(dict.fromkeys(task.place for task in tasks))),
-        change=f"{enumerated(list(dict.fromkeys(task.change for task in tasks)))} together",
+        change=f"{enumerated(list(dict.fromkeys(task.change for task in tasks if task.change)))} together".lstrip(),
         motion="; ".join(task.motion for task in tasks if task.motion),
         instruction=f"{TOGETHER} {' '.join(numbered)}",
         cure=" ".join(otherwise),

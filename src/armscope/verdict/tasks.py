@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.physics.cure import INSTRUCTION_WORDS
 from armscope.physics.effect import Effect
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.geometric import LINK_GEOMETRY
@@ -88,7 +89,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     """
     # what scatters has no curve to correct by
     known = None if any(p.name == "scatter" for p in effect.parameters) else _definition(cause, effect)
-    words = {"location": effect.location, "zero": "–", "ratio": "–", "size": "", "soft_turn": "–", "coefficient": "–"}
+    words = dict.fromkeys(INSTRUCTION_WORDS, "–") | {"location": effect.location, "size": ""}
     words["jump"] = _jump(effect)
     words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None

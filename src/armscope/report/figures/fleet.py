@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from armscope.report.style import styled
 from armscope.verdict.wording import plain
@@ -36,5 +37,7 @@ def fleet_figure(causes: pd.DataFrame) -> Figure:
         axes.set_yticks(range(0, len(sizes), step), list(sizes.index[::step]), fontsize=6)
         axes.grid(visible=False)
         # as high as the map: the words beside a bar of few rows would be cut off
-        figure.colorbar(picture, label="RMS at the tool\n(mm per axis)")
+        bar = figure.colorbar(picture, label="RMS at the tool\n(mm per axis)", format="{x:g}")
+        within = high < 10 * low  # 3, 4, 5 within one decade, not 3 x 10^0; of more decades they would overlap
+        bar.ax.yaxis.set_minor_formatter("{x:g}" if within else NullFormatter())
     return figure

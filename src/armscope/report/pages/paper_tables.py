@@ -13,7 +13,7 @@ from armscope.paper.convergence import iterations_needed
 from armscope.paper.decisive_errors import meaning
 from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts
 from armscope.report.html import significant
-from armscope.report.text.audit import READING_WORDS, Contradictions
+from armscope.report.text.audit import READING_WORDS, Contradictions, is_thorough
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ def audit_rows(audit: pd.DataFrame) -> pd.DataFrame:
             "check": audit["check"],
             "varied": audit["varied"],
             "tried": audit["tried"],
-            "some path obeys": yes_no(audit["possible"]),
+            "some path obeys" if is_thorough(audit) else "some path of those tried obeys": yes_no(audit["possible"]),
             "smallest gap (mm)": audit["best_gap_mm"].astype(float),
         }
     )

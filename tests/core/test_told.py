@@ -1,6 +1,16 @@
 """What a notebook shows is text, whatever stands in it."""
 
-from armscope.notebook.html import paragraphs, table
+from armscope.core.told import InWords, paragraphs, table
+
+
+class _Answer(InWords):
+    def sentences(self) -> tuple[str, ...]:
+        return "It is 3 < 4 mm.", "Next: text()."
+
+
+def test_a_result_is_told_in_sentences_of_which_the_first_is_bold() -> None:
+    assert repr(_Answer()) == "It is 3 < 4 mm. Next: text()."
+    assert _Answer()._repr_html_() == "<p><b>It is 3 &lt; 4 mm.</b></p><p>Next: text().</p>"
 
 
 def test_texts_are_escaped_and_a_table_without_rows_is_none() -> None:

@@ -1,9 +1,23 @@
-"""What a notebook shows of a result: sentences and a table."""
+"""What a notebook shows of a result: sentences and a table, in place of its arrays."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from html import escape
+
+
+class InWords:
+    """A result that a notebook shows as one paragraph. A dataclass must ask for it: `dataclass(repr=False)`."""
+
+    def sentences(self) -> tuple[str, ...]:
+        """What it is; its main numbers with their units; what to call next."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return " ".join(self.sentences())
+
+    def _repr_html_(self) -> str:
+        return paragraphs(*self.sentences())
 
 
 def paragraphs(headline: str, *further: str) -> str:
