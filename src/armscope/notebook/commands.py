@@ -296,6 +296,5 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:
         InputError: something that can't be used.
     """
     refuse_unknown("choose_poses", options, [each.name for each in fields(PoseOptions)])
-    arm = read_robot(robot)
-    choice = PoseOptions(**options).choose(arm, count)
+    choice = PoseOptions(**options).choose(arm := read_robot(robot), count)
     return with_notes((ChosenPoses(**vars(choice)), surroundings_notes(arm, choice.around)), PosesWarning)
