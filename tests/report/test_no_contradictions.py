@@ -21,9 +21,9 @@ def test_poses_that_would_settle_nothing_are_not_asked_for(tmp_path):
         write_report(verdict, tmp_path)
         page = Page((tmp_path / "report.html").read_text()).words
         assert poses.ask_about(vague)
-        assert ("These poses would settle it." in page) == settle
+        assert ("These poses would tell the two apart." in page) == settle
         assert ("no number of repeats within reason would settle it" in page) != settle
-        assert ("No further poses would settle it; the tests at the arm do" in page) != settle
+        assert ("No further poses would tell the two apart; the tests at the arm do" in page) != settle
 
 
 def test_causes_that_cancel_in_part_and_rows_that_count_little_are_told(tmp_path):

@@ -68,7 +68,7 @@ def next_poses_table(verdict: Diagnosis) -> pd.DataFrame:
     if not np.all(np.isnan(poses.payload_kg)):
         table["payload_kg"] = poses.payload_kg
     table["separation_mm"] = poses.separation_mm
-    table["note"] = poses.checked
+    table["note"] = [poses.checked, *[""] * (len(table) - 1)]  # once: it is long
     return table
 
 
