@@ -16,6 +16,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.poses.body import Capsule, Shape, collision_shapes, pieces
 from armscope.poses.constants import BODY, UP
@@ -40,6 +41,9 @@ class Surroundings:
 
     def radius_of(self, arm: Arm) -> float:
         """Of the links, m."""
+        if self.radius is not None and self.radius > arm.reach:
+            allowed = f"links are not thicker than the arm reaches, {1e3 * arm.reach:.0f} mm"
+            raise InputError("--radius-mm", "", f"{1e3 * self.radius:g}", allowed)
         return BODY.radius * arm.reach if self.radius is None else self.radius
 
     def shapes_of(self, arm: Arm) -> list[Shape]:
