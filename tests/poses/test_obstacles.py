@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from armscope.core.inputs import InputError
 from armscope.poses.body import collision_shapes, pieces
 from armscope.poses.obstacles import Surroundings, lowest, ranges, refusals, segment_distance, thinned
 from armscope.robot import chain, load_arm
@@ -148,7 +149,7 @@ def drawn(name, count=60):
 def test_a_thicker_body_is_refused_wherever_a_thinner_one_is(name, radius, thicker, floor):
     arm, angles = drawn(name)
     thin = refusals(arm, angles, Surroundings(radius, floor)) != ""
-    thick = refusals(arm, angles, Surroundings(radius * thicker, floor)) != ""
+    thick = refusals(arm, angles, Surroundings(min(radius * thicker, arm.reach), floor)) != ""
     assert not (thin & ~thick).any()
 
 
@@ -166,6 +167,12 @@ def test_centre_lines_that_cross_are_refused_at_any_radius(name, radius):
         for other in pieces_of[k + 2 :]:
             crosses |= segment_distance(*one, *other) < 1e-4
     assert (refusals(arm, angles[crosses], Surroundings(radius)) != "").all()
+
+
+def test_a_body_thicker_than_the_arm_reaches_is_no_radius():
+    arm, angles = drawn("seven-axis", 3)
+    with pytest.raises(InputError, match=r"--radius-mm: found '1e\+12'.*than the arm reaches"):
+        refusals(arm, angles, Surroundings(1e9))
 
 
 def test_an_elbow_that_folds_through_the_upper_arm_is_refused_and_the_pair_named():
