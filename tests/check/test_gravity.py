@@ -61,7 +61,7 @@ def test_an_arm_on_a_wall_described_as_upright_is_told_which_way_things_fall(axi
     assert "--estimate-gravity" in text
 
 
-@pytest.mark.parametrize("degrees", [8, 20, 40])
+@pytest.mark.parametrize("degrees", [8, 20, 40, 120])
 def test_an_arm_on_a_slope_described_as_upright_is_asked_how_it_leans(degrees: float) -> None:
     """Along the base's axes alone, 20 degrees went unasked. Here the description leans, and the arm does not."""
     arm = load_arm(EXAMPLES / "five-effects" / "robot.yaml")

@@ -42,14 +42,13 @@ def gravity_mistake(arm: Arm, recordings: Recordings, state: State) -> list[Susp
     stated, around = giving.explained(arm.gravity), giving.explained(-arm.gravity)
     nats = giving.nats(1.0, 1 - around)
     clear = max(WRONG_GRAVITY.clear_nats, giving.nats(1.0, 1 - stated) / WRONG_GRAVITY.little)
-    if around > WRONG_GRAVITY.clear_share and nats > clear:
-        return [_told(-arm.gravity, AROUND, stated, around)]
+    is_around = around > WRONG_GRAVITY.clear_share and nats > clear
     leaning = giving.likeliest_way(arm.gravity)
-    left, left_as_stated = 1 - giving.explained(leaning), 1 - stated
-    if left > WRONG_GRAVITY.leaning * left_as_stated or giving.nats(left_as_stated, left) < WRONG_GRAVITY.clear_nats:
-        return []
+    left = 1 - giving.explained(leaning)
+    if not giving.is_clear(1 - max(stated, around if is_around else 0.0), left):
+        return [_told(-arm.gravity, AROUND, stated, around)] if is_around else []
     cosine = np.dot(leaning, arm.gravity) / np.linalg.norm(arm.gravity) ** 2
-    lean = f"to gravity that leans by {np.degrees(np.arccos(np.clip(cosine, -1, 1))):.2g} degrees from what is stated"
+    lean = f"to gravity that leans by {np.degrees(np.arccos(np.clip(cosine, -1, 1))):.3g} degrees from what is stated"
     return [_told(leaning, lean, stated, 1 - left)]
 
 
@@ -104,6 +103,10 @@ class _Giving:
     def nats(self, before: float, after: float) -> float:
         """How much likelier rows are of which a smaller share is left."""
         return 0.5 * self.free * float(np.log(before / max(after, np.finfo(float).tiny)))
+
+    def is_clear(self, before: float, after: float) -> bool:
+        """Whether another direction leaves so much less that somebody should look."""
+        return after <= WRONG_GRAVITY.leaning * before and self.nats(before, after) >= WRONG_GRAVITY.clear_nats
 
     def likeliest_way(self, gravity: Array) -> Array:
         """Gravity of the same size along which joints that give way explain most; an axis of the base if that does."""
