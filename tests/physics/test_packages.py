@@ -41,3 +41,10 @@ def test_a_number_for_all_rows_is_not_one_per_row() -> None:
         InputError, match=r"driver 'beyond': found 'shape \(\)'; one finite number per row, shape \(3,\)"
     ):
         held.drivers["beyond"].values([0, 0, 0], 1)
+
+
+def test_a_function_that_cannot_even_be_called_is_told_with_its_effects_name() -> None:
+    """No line of the package ran, so there is none to point at."""
+    wrong = replace(PUSH, place=lambda arm: iter(()))
+    with pytest.raises(InputError, match=r"mine: effect 'push': place, .*TypeError"):
+        list(held_to_contract(wrong, "mine").place(None, None))  # type: ignore[arg-type]

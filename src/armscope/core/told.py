@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from html import escape
 
 
-class InWords:
+class InWords(ABC):
     """A result that a notebook shows as one paragraph. A dataclass must ask for it: `dataclass(repr=False)`."""
 
+    @abstractmethod
     def sentences(self) -> tuple[str, ...]:
         """What it is; its main numbers with their units; what to call next."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         return " ".join(self.sentences())

@@ -112,7 +112,8 @@ def _run(source: str, place: str, call: Callable[[], Given]) -> Given:
         raise
     except Exception as error:
         frames = traceback.extract_tb(error.__traceback__)
-        at = [each for each in frames if not each.filename.startswith(ARMSCOPE)][-1]  # in the package, not in a callee
+        # where its own call is wrong, it never came as far as the package
+        at = ([each for each in frames if not each.filename.startswith(ARMSCOPE)] or frames)[-1]
         where = f"{place}, {at.filename}, line {at.lineno}"
         raise InputError(
             source, where, f"{type(error).__name__}: {error}", "it must run without an error", MEND
