@@ -27,6 +27,14 @@ def test_an_interval_of_decimetres_is_no_number():
     assert number_line(number) == "a: these poses leave open what it is, and how far it changed"
 
 
+def test_a_change_that_is_surely_none_of_zero_is_told_however_wide_its_interval():
+    """A link that a crash made 12 mm longer, of which the poses leave open how long it was."""
+    number = Valued("a", "m", (-1e-3, 11e-3), (0.03,) * 2, (0.0, 12e-3), (0.0, 2e-3), 12e-3, (8e-3, 16e-3))
+    assert number.left_open
+    assert not number.unknown
+    assert "change 12.0 (8.0 ... 16.0) mm" in number_line(number)
+
+
 def test_a_unit_without_a_known_range_is_told_as_it_is():
     number = Valued("x", "kg", (0.0, 1.0), (9.0, 9.0), (0.0, 1.0), (0.0, 9.0), 1.0, (-17.0, 19.0))
     assert not number.unknown

@@ -44,7 +44,8 @@ class Valued:
     def unknown(self) -> bool:
         """Whether the poses leave open how far it changed, too: what is known is only how it moves beside others."""
         low, high = self.interval_95
-        return self.left_open and (high - low) / 2 > WHOLE_RANGE.get(self.unit, float("inf"))
+        says_nothing = low < 0 < high and (high - low) / 2 > WHOLE_RANGE.get(self.unit, float("inf"))
+        return self.left_open and says_nothing
 
 
 def wave_part(name: str) -> str:
