@@ -220,10 +220,7 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
     reading = read_parameter(difference, change.effect)
     label = wave_part(number.name) or reading.label
     if number.unknown:
-        return ChangedNumber(
-            wave_part(number.name) or read_parameter(difference, change.effect).label, UNKNOWN, UNKNOWN, "–", "", "–"
-        )
-    reading = read_parameter(difference, change.effect)
+        return ChangedNumber(label, UNKNOWN, UNKNOWN, "–", "", "–")
     before = float(np.mean(np.array(number.values)[np.isin(found.names, change.against)]))
     after = before + number.difference
     factor, unit = shown_unit(number.unit, max(abs(before), abs(after), abs(number.difference)))
