@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import unheard
+from armscope.diagnosis import diagnose
 from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.fitting.registration import fit_frames
 from armscope.measurement.noise import Noise
@@ -20,6 +21,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 from ..physics.scenes import arm_named
+from .numpy_arms import QUICK
 from .planted import one_run
 
 ROWS, OTHERS, NOISE = 300, 200, 0.005
@@ -35,6 +37,23 @@ def rough_gears(rng: np.random.Generator) -> tuple[Arm, Recordings, FittedModel]
     ]
     base = Base(np.eye(3), np.zeros(3))
     return arm, table, FittedModel(arm, {"1": base}, (), tuple(waves))
+
+
+def test_gears_of_a_short_table_are_told_as_gears_and_not_as_curves_of_nobody_knows_what():
+    rng = np.random.default_rng(1)
+    arm = arm_named("six-axis")
+    table = one_run(arm, 200, 1)
+    gears = []
+    for joint in (1, 2, 3):
+        waves = [wave for wave in gear_waves(table, 60) if wave.location == f"joint {joint}"]
+        values = rng.normal(size=(60, 2)) / np.arange(1, 61)[:, None]
+        values *= 5e-5 / np.sqrt(np.sum(values**2) / 2)
+        gears += [Part(wave, value) for wave, value in zip(waves, values, strict=True)]
+    points = predict(FittedModel(arm, {"1": Base(np.eye(3), np.zeros(3))}, (), tuple(gears)), table)
+    measured = replace(table, positions=points + 2e-5 * rng.normal(size=points.shape))
+    told = diagnose(arm, measured, QUICK)
+    assert [effect.effect for effect in told.effects] == []
+    assert [cause.family for cause in told.causes] == [TRANSMISSION]
 
 
 @pytest.mark.long

@@ -41,7 +41,7 @@ from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
 from armscope.physics.effect import Placed
 from armscope.physics.frames import set_ups_of
-from armscope.physics.freeform import refined
+from armscope.physics.freeform import follows_own_angle, refined
 from armscope.physics.model import FittedModel
 from armscope.physics.registry import library
 from armscope.physics.soft_start import soft_starts
@@ -121,13 +121,14 @@ class SelectionLoop:
     def _refine(self, of_a_sample: bool) -> None:
         """Finer forms of the curves and gears that were chosen; what they can't follow may be scatter."""
         fine = [refined(self.model.arm, self.recordings, self.space.placed[c]) for c in self.best.candidates]
-        if not self.best.background[GEARS] and not any(fine):
+        curves = any(follows_own_angle(self.space.placed[c]) for c in self.best.candidates)
+        if not self.best.background[GEARS] and not curves:
             return
         self.candidates = [*self.candidates, *[placed for placed in fine if placed is not None]]
         starts = self._where_it_ended() or []
         if not of_a_sample:  # a long table tells every joint's curve
             self.families[GEARS] = gear_waves(self.recordings, PLAUSIBLE.fine_waves)
-            # several curves of several joints may be what all gears have a little of
+            # curves of some joints, coarse ones of a short table, too, may be what all gears have a little of
             starts += [replaced(start, GEARS, LOOP.size_of_gears) for start in starts if not start[GEARS]]
         self.round(starts)
         # what looked like scatter may have been what the coarse curves could not follow

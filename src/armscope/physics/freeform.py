@@ -32,6 +32,11 @@ def waves(recordings: Recordings) -> int:
     return int(np.clip(len(recordings) // FORM.rows_per_wave, FORM.fewest_waves, FORM.most_waves))
 
 
+def follows_own_angle(placed: Placed) -> bool:
+    """Whether it is a free curve of a joint's own angle."""
+    return placed.parametrisation == "curve" and placed.variant == "angle"
+
+
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves.
 
@@ -44,7 +49,7 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
         The finer curve in place.
     """
     count = min(len(recordings) // FORM.rows_per_fine_wave, FORM.most_fine_waves)
-    if curve.effect is not UNKNOWN or curve.variant != "angle" or curve.refinement or count <= FORM.most_waves:
+    if not follows_own_angle(curve) or curve.refinement or count <= FORM.most_waves:
         return None
     j = Location.of(curve.location).number
     return replace(_angle_curve(arm, recordings, j, count, FORM.smooth_fine_waves), refinement=True)
@@ -55,7 +60,7 @@ def held(curve: Placed, recordings: Recordings) -> Placed:
 
     There its waves would only repeat, and its trend run on. Single rows far out (a home pose) are no part of the range.
     """
-    if curve.parametrisation != "curve" or curve.variant != "angle":
+    if not follows_own_angle(curve):
         return curve
     low, high = _range(recordings.motor_angles[:, Location.of(curve.location).number - 1])
 
@@ -84,7 +89,7 @@ def about_its_mean(curve: Part, scene: Scene) -> tuple[Part, float]:
     """
     placed = curve.placed
     constant = [n for n, each in enumerate(placed.terms) if [product.driver for product in each.products] == [ONE]]
-    if placed.parametrisation != "curve" or placed.variant != "angle" or len(constant) != 1:
+    if not follows_own_angle(placed) or len(constant) != 1:
         return curve, 0.0
     (turned,) = scene.amounts([curve]).values()
     mean, values = float(turned.mean()), curve.values.copy()

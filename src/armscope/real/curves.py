@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.diagnosis import Verdict
-from armscope.physics.effect import Part
+from armscope.physics.freeform import follows_own_angle
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.scene import Scene
@@ -57,7 +57,7 @@ def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
     turn is an encoder's zero, which every calibration fits anyway.
     """
     moving = {f"joint {motor}" for motor in moving_joints(rows)}
-    parts = [part for part in model.parts if _follows_own_angle(part) and part.placed.location in moving]
+    parts = [part for part in model.parts if follows_own_angle(part.placed) and part.placed.location in moving]
     if not parts:
         return None
     twists = Scene(model.arm, rows).twists(parts)
@@ -69,10 +69,6 @@ def turned_by_curves(model: FittedModel, rows: Recordings) -> Recordings | None:
         return None
     motors = np.linalg.lstsq(model.arm.actuation, turns.T, rcond=None)[0].T
     return replace(rows, motor_angles=rows.motor_angles + motors)
-
-
-def _follows_own_angle(part: Part) -> bool:
-    return part.placed.parametrisation == "curve" and part.placed.driver == f"angle of {part.placed.location}"
 
 
 def curve_table(verdicts: Mapping[str, Verdict]) -> pd.DataFrame:
