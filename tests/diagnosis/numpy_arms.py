@@ -24,10 +24,12 @@ TOLERANCE = 1.5e-4
 
 
 def reached(rows: list[tuple[float, float, float]], errors: Array, angles: Array) -> Array:
-    """(N, 3) tool points, m, of standard D-H rows with errors (n, 3) of a, alpha, d at angles (N, n)."""
+    """(N, 3) tool points, m, of standard D-H rows with errors (n, 4) of a, alpha, d and about y at angles (N, n)."""
     points = np.tile(TOOL_M, (len(angles), 1))
     for (a, alpha, d), error, theta in zip(rows[::-1], errors[::-1], angles.T[::-1], strict=True):
         x, y, z = points.T
+        s, c = np.sin(error[3]), np.cos(error[3])
+        x, z = c * x + s * z, c * z - s * x
         s, c = np.sin(np.radians(alpha) + error[1]), np.cos(np.radians(alpha) + error[1])
         x, y, z = x + a + error[0], c * y - s * z, s * y + c * z + d + error[2]
         points = np.column_stack([np.cos(theta) * x - np.sin(theta) * y, np.sin(theta) * x + np.cos(theta) * y, z])
@@ -43,14 +45,19 @@ def said(
     moved: Callable[[Array, Array], None],
     seed: int,
     shifted: Callable[[Array, Array], None] = still,
+    skew: tuple[int, float] = (1, 0.0),
     **context: Array,
 ) -> Diagnosis:
-    """What is said of an arm of ordinary tolerances whose angles or points, by row, were moved in some way."""
+    """What is said of an arm of ordinary tolerances whose angles or points, by row, were moved in some way.
+
+    Behind D-H row ``skew[0]`` all else is turned about y by ``skew[1]``, rad.
+    """
     rng = np.random.default_rng(seed)
     angles = rng.uniform(-2, 2, (ROWS, len(rows)))
     true = angles.copy()
     moved(true, np.arange(ROWS))
-    errors = TOLERANCE * rng.normal(size=(len(rows), 3))
+    errors = np.hstack([TOLERANCE * rng.normal(size=(len(rows), 3)), np.zeros((len(rows), 1))])
+    errors[skew[0] - 1, 3] = skew[1]
     points = reached(rows, errors, true) + NOISE_M * rng.normal(size=(ROWS, 3))
     shifted(points, np.arange(ROWS))
     table = Recordings(

@@ -103,7 +103,8 @@ def test_a_bending_link_is_an_euler_bernoulli_cantilever() -> None:
 
 
 @pytest.mark.parametrize("name", ARMS)
-def test_row_errors_are_those_of_an_arm_built_with_other_rows(name: str) -> None:
+@pytest.mark.parametrize("sizes", [{"a": 2e-3, "alpha": 1.5e-3, "d": -1e-3}, {"beta": 1e-4}])
+def test_row_errors_are_those_of_an_arm_built_with_other_rows(name: str, sizes: dict[str, float]) -> None:
     description = load_description(ROBOTS / f"{name}.yaml")
     nominal = build_arm(description)
     table = full_table(nominal, 20, seed=3)
@@ -111,22 +112,23 @@ def test_row_errors_are_those_of_an_arm_built_with_other_rows(name: str) -> None
     assert description.dh is not None
     for j in range(1, nominal.n_joints + 1):
         link = placed(nominal, table, "link_geometry", f"link {j}")
-        sizes = {"a": 2e-3, "alpha": 1.5e-3, "d": -1e-3}
-        part = Part(link, np.array([sizes[term.name] for term in link.terms]))
+        part = Part(link, np.array([sizes.get(term.name, 0.0) for term in link.terms]))
         rows = list(description.dh.joints)
         row = rows[j - 1]
+        skewed = any(term.name == "beta" for term in link.terms)
         rows[j - 1] = row.model_copy(
             update={
-                "a_mm": row.a_mm + 2.0,
-                "alpha_deg": row.alpha_deg + np.degrees(1.5e-3),
-                "d_mm": row.d_mm - 1.0,
+                "a_mm": row.a_mm + 1e3 * sizes.get("a", 0.0),
+                "alpha_deg": row.alpha_deg + np.degrees(sizes.get("alpha", 0.0)),
+                "d_mm": row.d_mm + 1e3 * sizes.get("d", 0.0),
+                "beta_deg": row.beta_deg + np.degrees(sizes.get("beta", 0.0)) * skewed,
             }
         )
         other = build_arm(
             description.model_copy(update={"dh": description.dh.model_copy(update={"joints": tuple(rows)})})
         )
         expected = forward_kinematics(other, table.motor_angles)
-        # a and alpha along one axis, d along another: exact but for the order within one row
+        # a and alpha along one axis, d along another, beta small: exact but for the order within one row
         np.testing.assert_allclose(scene.posture([part]).tool, expected, atol=5e-9, err_msg=f"link {j}")
 
 

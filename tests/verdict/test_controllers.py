@@ -55,14 +55,14 @@ def test_zeros_and_rows_that_were_found_have_their_signs_in_the_file() -> None:
     arm = ur5e()
     row = found(
         "link_geometry", "link 2", Parameter("a", "mm", 0.8, 0.01), Parameter("alpha", "rad", 7e-4, 1e-5),
-        Parameter("d", "mm", 0.3, 0.01),
+        Parameter("d", "mm", 0.3, 0.01), Parameter("beta", "rad", 5e-4, 1e-5),
     )  # fmt: skip
     zero = found("joint_offset", "joint 4", Parameter("offset", "rad", -3e-3, 1e-5))
     written = ur_kinematics(saying(arm, row, zero))
     assert written is not None
     content = arm.description.model_dump()
     stated = content["dh"]["joints"][1]
-    stated |= {"a_mm": stated["a_mm"] + 0.8, "alpha_deg": np.degrees(7e-4), "d_mm": 0.3}
+    stated |= {"a_mm": stated["a_mm"] + 0.8, "alpha_deg": np.degrees(7e-4), "d_mm": 0.3, "beta_deg": np.degrees(5e-4)}
     real = build_arm(type(arm.description).model_validate(content))
     for angles in np.random.default_rng(3).uniform(-2, 2, (8, 6)):
         actual = angles + np.array([0, 0, 0, -3e-3, 0, 0])

@@ -19,6 +19,8 @@ def turn(axis: str, angle: float) -> np.ndarray:
         matrix[:2, :2] = [[c, -s], [s, c]]
     elif axis == "x":
         matrix[1:3, 1:3] = [[c, -s], [s, c]]
+    else:
+        matrix[:3:2, :3:2] = [[c, s], [-s, c]]
     return matrix
 
 

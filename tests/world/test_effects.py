@@ -11,7 +11,7 @@ from armscope.world.effects_of_joints import SOFT_SIDE
 from armscope.world.effects_of_links import close_loop
 from armscope.world.statics import Hidden
 from armscope.world.strength import equilibrium
-from tests.world.by_hand import ARMS, HandArm
+from tests.world.by_hand import ARMS, HandArm, turn
 from tests.world.scenes import drawn, scene_of
 
 EXACT_M = 1e-10
@@ -170,8 +170,15 @@ def test_lengths_and_twists_of_a_link_change_its_dh_row(kind, name):
             rows[place - 1, :3] += [v["a"], v["alpha"], v["d"]]
         else:
             rows[place - 1, [0, 2]] *= 1 + v["coefficient"] * warm
-        by_hand.append(arm.point(q, rows) - point)
+        by_hand.append(skewed(arm, q, rows, place, v.get("beta", 0.0)) - point)
+    assert ("beta" in v) == (kind == "link_geometry" and name == "parallelogram-120kg"), "of parallel axes alone"
     assert np.abs(moved(scene, effect) - by_hand).max() < EXACT_M
+
+
+def skewed(arm, q, rows, place, beta):
+    """The tool point where all behind D-H row ``place`` is turned by ``beta`` about y of its frame."""
+    behind = arm.frames(arm.actuation @ q, rows)[1][place - 1]
+    return (behind @ turn("y", beta) @ np.linalg.inv(behind) @ np.append(arm.point(q, rows), 1))[:3]
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ JOINT_OFFSET = Effect(
 
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in range(1, arm.n_joints + 1):
-        terms = tuple(each for name, each in row_terms(arm, j).items() if name != "beta")
+        terms = tuple(row_terms(arm, j).values())
         yield Placed(LINK_GEOMETRY, f"link {j}", terms, (1.0,) * len(terms), "constant")
 
 

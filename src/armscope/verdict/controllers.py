@@ -42,7 +42,7 @@ def ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
     rows = corrected_rows(verdict)
     if rows is None or len(rows) != len(UR_JOINTS) or arm.is_modified_dh or not _UR.search(arm.name):
         return None
-    a, alpha, d, theta = (rows[f"corrected_{name}"].to_numpy(float) for name in NUMBERS)
+    a, alpha, d, theta, beta = (rows[f"corrected_{name}"].to_numpy(float) for name in NUMBERS)
     zeros = np.radians(theta + zero_offsets(verdict)["actual_minus_commanded_deg"].to_numpy(float))
     before = np.eye(4)
     joints: dict[str, Any] = {}
@@ -50,7 +50,7 @@ def ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
         place, angles = place_and_angles(before @ _moved(z=1e-3 * d[j]) @ _turned(2, zeros[j]))
         keys = ("x", "y", "z", "roll", "pitch", "yaw")
         joints[name] = dict(zip(keys, map(float, (*place, *angles)), strict=True))
-        before = _moved(x=1e-3 * a[j]) @ _turned(0, np.radians(alpha[j]))
+        before = _moved(x=1e-3 * a[j]) @ _turned(0, np.radians(alpha[j])) @ _turned(1, np.radians(beta[j]))
     return {"kinematics": {**joints, "hash": HASH}}
 
 
@@ -61,7 +61,7 @@ def _moved(x: float = 0.0, z: float = 0.0) -> Array:
 
 
 def _turned(axis: int, radians: float) -> Array:
-    """(4, 4) a turn about x (0) or z (2)."""
+    """(4, 4) a turn about x (0), y (1) or z (2)."""
     placement, (one, two) = np.eye(4), ((axis + 1) % 3, (axis + 2) % 3)
     placement[one, one] = placement[two, two] = np.cos(radians)
     placement[one, two], placement[two, one] = -np.sin(radians), np.sin(radians)

@@ -20,8 +20,11 @@ from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.entries import entry_decimals
 from armscope.verdict.wording import beyond_arms, implausible
 
-NUMBERS = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
-"""Of a D-H row, as robot.yaml calls them."""
+NUMBERS = {
+    "a_mm": ("a", "a"), "alpha_deg": ("alpha", "α"), "d_mm": ("d", "d"),
+    "theta_offset_deg": ("theta", "θ offset"), "beta_deg": ("beta", "β"),
+}  # fmt: skip
+"""Of a D-H row, as robot.yaml calls them: what an effect calls its error, and its name for people."""
 
 
 SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}
@@ -101,17 +104,22 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
         found = {p.name: p for e in _settled(verdict) if (e.effect, e.location) == (LINK_GEOMETRY.name, f"link {j}")
                  for p in e.parameters if not implausible(p, e)}  # fmt: skip
         row: dict[str, object] = {"row": j, "convention": dh.convention}
-        numbers = (stated.a_mm, stated.alpha_deg, stated.d_mm, stated.theta_offset_deg)
-        for name, key, value in zip(NUMBERS, ("a", "alpha", "d", "theta"), numbers, strict=True):
-            step = found[key].value if key in found else 0.0
+        for name, (key, _) in NUMBERS.items():
+            value, step = getattr(stated, name), found[key].value if key in found else 0.0
             step = math.degrees(step) if name.endswith("deg") else step
             row |= {f"stated_{name}": value, f"correction_{name}": step, f"corrected_{name}": value + step}
         rows.append(row)
     return pd.DataFrame(rows)
 
 
+def numbers_told(rows: pd.DataFrame) -> dict[str, str]:
+    """Which numbers of corrected rows are told, with their names: β only where a row has one, as few arms' do."""
+    skewed = bool(rows[["stated_beta_deg", "corrected_beta_deg"]].any(axis=None))
+    return {name: told for name, (_, told) in NUMBERS.items() if name != "beta_deg" or skewed}
+
+
 def corrected_cells(verdict: Diagnosis) -> list[list[str]]:
-    """The same rows to be read by people: number of the row, then stated and corrected by turns.
+    """The same rows to be read by people: number of the row, then stated and corrected by turns of `numbers_told`.
 
     What is corrected has its interval beside it and as many decimals as that leaves; what is not says "same".
     """
@@ -119,10 +127,13 @@ def corrected_cells(verdict: Diagnosis) -> list[list[str]]:
     known = {
         (e.location, p.name): p.stderr for e in verdict.effects if e.effect == LINK_GEOMETRY.name for p in e.parameters
     }
-    rows = []
-    for row in [] if table is None else table.to_dict("records"):
+    rows: list[list[str]] = []
+    if table is None:
+        return rows
+    for row in table.to_dict("records"):
         cells = [str(row["row"])]
-        for name, key in zip(NUMBERS, ("a", "alpha", "d", "theta"), strict=True):
+        for name in numbers_told(table):
+            key, _ = NUMBERS[name]
             stderr = known.get((f"link {row['row']}", key), math.nan)
             unit, stderr = ("°", math.degrees(stderr)) if name.endswith("deg") else ("mm", stderr)
             decimals, half = entry_decimals(unit, stderr), INTERVAL * stderr

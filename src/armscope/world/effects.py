@@ -19,7 +19,7 @@ gravity (virtual work), T the temperature, t the time. Lengths hold at 20 C.
 | axis_wobble | joint j | amplitude rad, phase rad, direction rad, per_turn 1/turn | tilt of axis j, see below |
 | servo_lag | joint j | delay s | - speed x delay |
 | joint_coupling | joint j from joint k | coupling rad/rad | angle j + coupling q_k |
-| link_geometry | link j | alpha rad, a mm, d mm (a subset) | D-H row j is that much larger |
+| link_geometry | link j | alpha rad, a mm, d mm, beta rad (some) | D-H row j is that much larger; beta, see below |
 | link_bending | link j | flexibility 1/(N m^2) | 1/(E I) of a beam along D-H row j, in segments |
 | thermal_expansion | link j | coefficient 1/K | a and d of row j grow by coefficient (T - 20) |
 | parallelogram_geometry | parallelogram | rod mm, rocker mm | bars longer, loop closed by Newton's method |
@@ -33,6 +33,8 @@ axis_wobble tilts axis j, before it turns, by amplitude cos(per_turn theta - pha
 holder_sag: by a symmetric matrix of these x the share of a weight that pulls along each axis of the nominal last frame,
 against z, whose own entry is zero. loose_target: by play to the lower side, along a direction of that frame or in the
 plane across it (nest_x, nest_y, nest_z), where that leans by least_slope at least.
+link_geometry: only rows between parallel axes have a beta, the turn about y that follows the row: no other number of it
+makes them skew (Hayati and Mirmirani 1985).
 link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything that hangs on D-H
 frame j (its own mass included), turns there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F,
 the parts along e left out; bent by segments, so to 0.4 %.

@@ -20,19 +20,33 @@ from armscope.world.kinds import (
     links_longer_than,
     number,
 )
+from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden
 
 REFERENCE_C = 20.0
 
 
+PARALLEL = np.sin(np.radians(5))
+
+
+def skewing_tilt(geometry: Geometry, link: int) -> str:
+    """The tilt that no number of D-H row ``link`` (0-based) makes: of parallel axes about y; "" where they are not."""
+    behind = link if geometry.modified else link + 1
+    parallel = abs(np.sin(geometry.rows[link, 1])) < PARALLEL
+    return f"tilt {behind + 1} y" if parallel and 0 < behind < geometry.n_joints else ""
+
+
 def _hide_link_geometry(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     errors = [values.get("a", 0.0), values.get("alpha", 0.0), values.get("d", 0.0), 0.0]
     hidden.misshape(number(location), np.array(errors))
+    if "beta" in values:
+        hidden.move(skewing_tilt(scene.geometry, number(location)), np.full(len(scene.session), values["beta"]))
 
 
 def _draw_link_geometry(rng: np.random.Generator, scene: Scene, location: str) -> dict[str, float]:
-    """All three numbers, of tolerance proportions: a millimetre goes with a milliradian."""
-    return {name: float(rng.normal(0, 1) * 1e-3) for name in ("alpha", "a", "d")}
+    """All its numbers, of tolerance proportions: a millimetre goes with a milliradian."""
+    skews = bool(skewing_tilt(scene.geometry, number(location)))
+    return {name: float(rng.normal(0, 1) * 1e-3) for name in ("alpha", "a", "d", *["beta"] * skews)}
 
 
 def _hide_thermal(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
@@ -94,7 +108,10 @@ def _linkages(description: RobotDescription) -> list[str]:
 LINKS: tuple[Kind, ...] = (
     Kind(
         "link_geometry", "", CONSTANT,
-        (Parameter("alpha", "rad"), Parameter("a", "mm", 1e-3), Parameter("d", "mm", 1e-3)), (),
+        (
+            Parameter("alpha", "rad"), Parameter("a", "mm", 1e-3), Parameter("d", "mm", 1e-3),
+            Parameter("beta", "rad"),
+        ), (),
         links, _draw_link_geometry, _hide_link_geometry,
     ),
     Kind(

@@ -84,7 +84,8 @@ def _hide_row(hidden: Hidden, scene: Scene, location: str, values: Values) -> No
 
 def _hide_link(hidden: Hidden, scene: Scene, location: str, values: Values) -> None:
     """Errors of a D-H row, and the turn about y that no row has."""
-    OF["link_geometry"].hide(hidden, scene, location, values)
+    row = {name: value for name, value in values.items() if name != "beta"}
+    OF["link_geometry"].hide(hidden, scene, location, row)
     hidden.move(f"tilt {number(location) + 1} y", np.full(len(scene.session), values["beta"]))
 
 
@@ -152,7 +153,7 @@ BEARING = _kind(
 LOW_WAVES = _kind("gear_eccentricity", "waves", ANGLE, _hide_waves, _RMS)
 FINE_WAVES = _kind("gear_mesh", "waves", ANGLE, _hide_waves, _RMS)
 ROW = _kind("link_geometry", "stated on the next row", CONSTANT, _hide_row, Parameter("a", "mm", 1e-3))
-LINK = _kind("link_geometry", "", CONSTANT, _hide_link, *OF["link_geometry"].parameters, Parameter("beta", "rad"))
+LINK = _kind("link_geometry", "", CONSTANT, _hide_link, *OF["link_geometry"].parameters)
 WANDER = _kind("base_drift", "wander", TIME, _hide_wander, _SIZE)
 RUNS = _kind("base_shift", "between runs", TIME, _hide_runs, _SIZE)
 GROWTH = _kind("thermal_expansion", "lagging", TEMPERATURE, _hide_growth, Parameter("coefficient", "1/K"))

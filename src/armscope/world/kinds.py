@@ -143,6 +143,7 @@ class Concealed:
         return [
             {"name": p.name, "unit": p.unit, "value": float(f"{self.values[p.name] / p.si:.6g}")}
             for p in self.kind.parameters
+            if p.name in self.values
         ]
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.world.effects_around import SAGS, weight_along_tool
-from armscope.world.effects_of_links import REFERENCE_C, close_loop
+from armscope.world.effects_of_links import REFERENCE_C, close_loop, skewing_tilt
 from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, TARGET_FREEDOMS, Layout, all_freedoms, segment_hinges
 from armscope.world.mechanism import Mechanism
@@ -143,7 +143,8 @@ def _link_rivals(patterns: Patterns) -> Iterator[Rival]:
             np.asarray(sum(c * s for c, s in zip(way, shift, strict=True)))
             for way in geometry.lengthening(j, geometry.rows)
         )
-        yield _rival("link_geometry", place, _twisted_row(patterns, j), along_a, along_d)
+        skewed = [patterns.of(tilt)] if (tilt := skewing_tilt(geometry, j)) else []
+        yield _rival("link_geometry", place, _twisted_row(patterns, j), along_a, along_d, *skewed)
         a, d = geometry.rows[j, 0], geometry.rows[j, 2]
         if j in patterns.bending:
             yield _rival("thermal_expansion", place, (a * along_a + d * along_d) * warmer)
