@@ -14,8 +14,9 @@ from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.physics.backgrounds import ELASTIC
 from armscope.physics.effect import Part
-from armscope.physics.elastic import BASE_COMPLIANCE, BEARING_COMPLIANCE, LINK_BENDING
+from armscope.physics.elastic import LINK_BENDING
 from armscope.physics.model import Base, FittedModel, predict
+from armscope.physics.tilting import BASE_COMPLIANCE, BEARING_COMPLIANCE
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import forward_kinematics

@@ -14,9 +14,9 @@ from armscope.inference.model_space import Candidate, ModelSpace
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
-from armscope.physics.elastic import tilting_joints
 from armscope.physics.registry import library
 from armscope.physics.scene import Scene
+from armscope.physics.tilting import tilting_joints
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import Arm, load_arm

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from armscope.physics.effect import Part, Placed
-from armscope.physics.elastic import BASE_COMPLIANCE, BEARING_COMPLIANCE, JOINT_COMPLIANCE
+from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.loads import STATED_MASSES, mass_errors
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
 from armscope.physics.payload import payload_errors
 from armscope.physics.scene import Scene
+from armscope.physics.tilting import BASE_COMPLIANCE, BEARING_COMPLIANCE
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.physics.effect import Part
-from armscope.physics.elastic import BEARING_COMPLIANCE
 from armscope.physics.model import Base, FittedModel, predict
+from armscope.physics.tilting import BEARING_COMPLIANCE
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.robot import forward_kinematics
 from tests.world.by_hand import HandArm

@@ -18,7 +18,7 @@ from armscope.inference.normal_equations import projected_rms
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.effect import Part
-from armscope.physics.elastic import TWO_AXES, stiffest_of_two
+from armscope.physics.tilting import TWO_AXES, stiffest_of_two
 
 
 def without_implausible(

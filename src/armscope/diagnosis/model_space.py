@@ -36,9 +36,10 @@ from armscope.physics.backgrounds import (
 )
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
-from armscope.physics.elastic import BASE_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
+from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.soft_start import SOFT_START
+from armscope.physics.tilting import BASE_COMPLIANCE
 from armscope.physics.transmission import BACKLASH
 
 SHARES = {

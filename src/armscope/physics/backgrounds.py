@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.physics import elastic, geometric, transmission
+from armscope.physics import elastic, geometric, tilting, transmission
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.effect import Placed
 from armscope.physics.orientation_error import orientation_errors
@@ -56,9 +56,7 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     Returns:
         What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
-    pedestal = [
-        placed for placed in elastic.BASE_COMPLIANCE.place(arm, recordings) if placed.variant == elastic.TWO_AXES
-    ]
+    pedestal = [placed for placed in tilting.BASE_COMPLIANCE.place(arm, recordings) if placed.variant]
     return {
         GEOMETRIC: constants(arm),
         ELASTIC: springs(arm, recordings),
@@ -79,8 +77,8 @@ def constants(arm: Arm) -> list[Placed]:
 
 def springs(arm: Arm, recordings: Recordings) -> list[Placed]:
     """What gives way at the joints: drives and bearings."""
-    drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, recordings) if placed.variant == ""]
-    return _loaded([*drives, *elastic.BEARING_COMPLIANCE.place(arm, recordings)])
+    giving_way = (*elastic.JOINT_COMPLIANCE.place(arm, recordings), *tilting.BEARING_COMPLIANCE.place(arm, recordings))
+    return _loaded(placed for placed in giving_way if placed.variant == "")
 
 
 def _loaded(giving_way: Iterable[Placed]) -> list[Placed]:

@@ -96,11 +96,11 @@ def clear_ones(what: str, **places: str) -> Clause:
     """
 
     def clause(told: Told) -> str:
-        sizes = {place: told.numbers[name] for name, place in places.items()}
+        sizes = {place: told.numbers[name] for name, place in places.items() if name in told.numbers}
         clear = [f"by {size} {place}" for place, size in sizes.items() if abs(size.value) > CLEAR * size.stderr]
         if not clear:
             raise KeyError(*places)
-        return what.format(" and ".join(clear))
+        return what.format(" and ".join(clear), location=told.location)
 
     return clause
 

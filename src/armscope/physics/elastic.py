@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import below_zero, clear_ones
+from armscope.physics.clause import below_zero
 from armscope.physics.constants import FORM, PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
@@ -19,8 +19,6 @@ from armscope.robot import Arm
 
 UNKNOWN_MASSES = "unknown masses"
 """The variant of a joint's compliance that trusts no stated mass."""
-TWO_AXES = "two axes"
-"""The variant of a base's compliance that is not the same about x and y: a pedestal or a machine's bed is not round."""
 
 
 def loaded_joints(scene: Scene) -> list[int]:
@@ -58,12 +56,12 @@ def drive(scene: Scene, j: int, load: Driver) -> Term:
     Returns:
         The compliance, rad/(N m) where the load is a torque.
     """
-    size = _plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+    size = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
     return term("compliance", "rad/(N m)", (motor(j), load), plausible=size)
 
 
-def _plausible_give(turn: float, load: Array) -> float:
-    """rad per unit of a load (N,) whose largest value turns what gives way by ``turn`` rad; infinite without load."""
+def plausible_give(turn: float, load: Array) -> float:
+    """Rad per unit of a load (N,) whose largest value turns what gives way by ``turn`` rad; infinite without load."""
     largest = float(np.abs(load).max(initial=0.0))
     return turn / largest if largest > 0 else np.inf
 
@@ -104,7 +102,7 @@ def _mass_moment_terms(scene: Scene, j: int) -> Iterator[tuple[Term, float]]:
     strong = size > FORM.mass_directions_share * size[0]
     for number, (direction, share) in enumerate(zip(directions[strong], size[strong] / size[0], strict=True), start=1):
         load = Driver("regressor", (j, *(float(w) for w in direction)))
-        give = _plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
+        give = plausible_give(PLAUSIBLE.drive_rad, scene.driver(load))
         name = f"compliance_times_moment_{number}"
         yield term(name, "rad/(m/s^2)", (motor(j), load), plausible=give), 1.0 if scene.arm.has_masses else float(share)
 
@@ -135,119 +133,6 @@ JOINT_COMPLIANCE = Effect(
 )
 
 
-def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if not arm.has_masses:
-        return
-    scene = Scene(arm, recordings)
-    for place in tilting_joints(scene):
-        yield Placed(BEARING_COMPLIANCE, place, (_tilt(scene, place),), (1.0,), f"moment across {place}")
-
-
-def tilting_joints(scene: Scene) -> Iterator[str]:
-    """Joints whose moment across varies: a tilt that is the same in all rows is an error of the links beside it."""
-    for place in (f"joint {j}" for j in range(1, scene.arm.n_joints + 1)):
-        across = scene.moment(place)[:, :2]
-        if np.linalg.norm(np.std(across, axis=0)) > FORM.varying_load * np.sqrt(np.mean(np.sum(across**2, axis=1))):
-            yield place
-
-
-def _tilt(scene: Scene, location: str) -> Term:
-    return term(
-        "compliance",
-        "rad/(N m)",
-        *(Product(Direction(location, axis), Driver("moment", (location, n))) for n, axis in enumerate(("rx", "ry"))),
-        plausible=tilt_per_moment(scene, location),
-    )
-
-
-def tilt_per_moment(scene: Scene, location: str) -> float:
-    """How far a bearing or the base plausibly tilts under a moment, rad/(N m); infinite where none is."""
-    return _plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :2], axis=1))
-
-
-BEARING_COMPLIANCE = Effect(
-    "bearing_compliance",
-    "elastic",
-    _place_bearings,
-    "The joint's bearing tilts across its axis under the moment that everything beyond puts on it.",
-    "Hang a known weight on the outstretched arm and measure the tilt on both sides of the bearing.",
-    Cure(
-        "Preload or replace the bearing.",
-        otherwise="No motor turns across its axis: otherwise let the corrected model's inverse kinematics compute the "
-        "commands (axis tilted by + compliance x moment; `armscope compensate`).",
-        change="bearing",
-        instruction="Preload or replace the bearing of {location}.",
-    ),
-    clauses=(
-        "the bearing of {location} tilts by {compliance} under gravity",
-        "the bearing of {location} tilts under gravity",
-    ),
-    atlas="gravity load",
-    nonnegative=True,
-)
-
-
-def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    if arm.has_masses:
-        scene = Scene(arm, recordings)
-        yield Placed(BASE_COMPLIANCE, "base", (_tilt(scene, "base"),), (1.0,), "moment on the base")
-        terms = _two_axes(scene, "base")
-        yield Placed(BASE_COMPLIANCE, "base", terms, (1.0,) * 3, "moment on the base", variant=TWO_AXES)
-
-
-def _two_axes(scene: Scene, location: str) -> tuple[Term, ...]:
-    """A symmetric 2 x 2 compliance about x and y: soft axes that lie anyhow."""
-    about = [Direction(location, axis) for axis in ("rx", "ry")]
-    under = [Driver("moment", (location, n)) for n in (0, 1)]
-    size = tilt_per_moment(scene, location)
-    return (
-        term("compliance_x", "rad/(N m)", (about[0], under[0]), plausible=size),
-        term("compliance_y", "rad/(N m)", (about[1], under[1]), plausible=size),
-        term("compliance_xy", "rad/(N m)", (about[0], under[1]), (about[1], under[0]), plausible=size),
-    )
-
-
-def stiffest_of_two(values: Array, covariance: Array) -> tuple[float, float]:
-    """The smaller principal compliance, rad/(N m), of one about two axes; what is elastic has no negative one.
-
-    Args:
-        values: (3,) about x, about y, and across.
-        covariance: (3, 3) of them.
-
-    Returns:
-        Value and standard error.
-    """
-    x, y, across = values
-    size, axes = np.linalg.eigh(np.array([[x, across], [across, y]]))
-    u, v = axes[:, 0]
-    slope = np.array([u * u, v * v, 2 * u * v])
-    return float(size[0]), float(np.sqrt(slope @ covariance @ slope))
-
-
-BASE_COMPLIANCE = Effect(
-    "base_compliance",
-    "elastic",
-    _place_base,
-    "The base (pedestal, floor, bolts) tilts under the arm's moment.",
-    "Put a reflector or an inclinometer on the base and swing the outstretched arm around.",
-    Cure(
-        "Stiffen the mounting.",
-        otherwise="No motor turns the base: otherwise let the corrected model's inverse kinematics compute the "
-        "commands (base tilted by + compliance x moment; `armscope compensate`).",
-        change="mounting",
-        instruction="Tighten and stiffen the mounting of the base.",
-    ),
-    clauses=(
-        "the base tilts by {compliance} under the arm's moment",
-        clear_ones("the base tilts {} under the arm's moment", compliance_x="about its x", compliance_y="about its y"),
-        "the base tilts under the arm's moment",
-    ),
-    labels={"compliance_x": "about x", "compliance_y": "about y", "compliance_xy": "about x under a moment about y"},
-    atlas="gravity load",
-    nonnegative=True,
-)
-
-
 def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not arm.has_masses:
         return
@@ -260,7 +145,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             "flexibility",
             "1/(N m^2)",
             *(Product(Direction(scene.beam_site(j), axis), Driver("bend", (j, n))) for n, axis in enumerate(AXES)),
-            plausible=_plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
+            plausible=plausible_give(PLAUSIBLE.beam_rad, np.linalg.norm(scene.bending(j)[:, 3:], axis=1)),
         )
         yield Placed(LINK_BENDING, f"link {j}", (flexibility,), (1.0,), f"load at the end of link {j}")
 
@@ -284,4 +169,4 @@ LINK_BENDING = Effect(
     nonnegative=True,
 )
 
-EFFECTS = [JOINT_COMPLIANCE, BEARING_COMPLIANCE, BASE_COMPLIANCE, LINK_BENDING]
+EFFECTS = [JOINT_COMPLIANCE, LINK_BENDING]

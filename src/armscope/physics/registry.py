@@ -19,6 +19,7 @@ from armscope.physics import (
     loose_target,
     payload,
     thermal,
+    tilting,
     transmission,
     zero_shift,
 )
@@ -35,6 +36,7 @@ EFFECTS: tuple[Effect, ...] = (
     *geometric.EFFECTS,
     *transmission.EFFECTS,
     *elastic.EFFECTS,
+    *tilting.EFFECTS,
     *thermal.EFFECTS,
     *drift.EFFECTS,
     *zero_shift.EFFECTS,

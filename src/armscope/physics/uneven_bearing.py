@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from armscope.physics.effect import Direction, Driver, Placed, Product, term
-from armscope.physics.elastic import BEARING_COMPLIANCE, tilt_per_moment, tilting_joints
 from armscope.physics.scene import Scene
+from armscope.physics.tilting import BEARING_COMPLIANCE, tilt_per_moment, tilting_joints
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

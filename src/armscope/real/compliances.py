@@ -35,7 +35,7 @@ from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
-from armscope.physics import elastic, geometric
+from armscope.physics import elastic, geometric, tilting
 from armscope.physics.constants import FORM
 from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import free_frames
@@ -96,7 +96,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     model = fit_frames(arm, table, tool_per_run)
     _, table, _ = trusted_channels(supported(table), table, residuals(model, table))
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
-    bearings = list(elastic.BEARING_COMPLIANCE.place(arm, table))
+    bearings = [placed for placed in tilting.BEARING_COMPLIANCE.place(arm, table) if placed.variant == ""]
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in COMPLIANCE.waves]
     families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
     parts = parameter_layout(free_frames(table, tool_per_run), families, [])

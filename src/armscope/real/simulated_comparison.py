@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.core.location import Location
 from armscope.core.types import Array
-from armscope.physics import elastic, geometric, transmission
+from armscope.physics import elastic, geometric, tilting, transmission
 from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
@@ -67,7 +67,7 @@ def draw_arm(arm: Arm, rows: Recordings, rng: np.random.Generator) -> DrawnArm:
     positive = [
         (gaps, DRAWN.gap_rad),
         (elastic.LINK_BENDING.place(arm, rows), DRAWN.bend),
-        ([base for base in elastic.BASE_COMPLIANCE.place(arm, rows) if not base.variant], DRAWN.base_rad_nm),
+        ([base for base in tilting.BASE_COMPLIANCE.place(arm, rows) if not base.variant], DRAWN.base_rad_nm),
     ]
     rest += [Part(placed, np.array([rng.uniform(0, size)])) for places, size in positive for placed in places]
     return DrawnArm(drives, bearings, tuple(rest))
@@ -98,7 +98,7 @@ def simulate_recordings(
         Part(placed, np.array([softer * compliances[Location.of(placed.location).index]]))
         for effect, compliances in (
             (elastic.JOINT_COMPLIANCE, drawn.drives),
-            (elastic.BEARING_COMPLIANCE, drawn.bearings),
+            (tilting.BEARING_COMPLIANCE, drawn.bearings),
         )
         for placed in effect.place(heavy, loaded)
         if placed.variant == ""
