@@ -17,6 +17,7 @@ from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.frames import free_frames
 from armscope.physics.payload import payload_errors
+from armscope.physics.payload_change import payload_changes
 from armscope.physics.registry import EFFECTS, library
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import mesh
@@ -45,6 +46,7 @@ def every_placed(scene: Scene) -> list[Placed]:
         tool_shift(table, 5, 1),
         zero_shift(table, 5, 1, 2),
         *payload_errors(table, give),
+        *payload_changes(table, give),
         *free_frames(table, tool_per_run=True),
     ]
 

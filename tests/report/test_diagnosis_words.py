@@ -21,7 +21,7 @@ LOCATIONS = {
     "link_geometry": "link 2", "link_bending": "link 2", "thermal_expansion": "link 2", "base_drift": "base",
     "base_shift": "base", "base_compliance": "base", "tool_shift": "tool", "instrument_scale": "instrument",
     "payload_error": "payload", "parallelogram_geometry": "parallelogram", "joint_coupling": "joint 6 from joint 5",
-    "loose_target": "tool", "holder_sag": "tool",
+    "loose_target": "tool", "holder_sag": "tool", "payload_change": "payload",
 }  # fmt: skip
 PARAMETERS = {
     "joint_offset": [("offset", "rad", 8.6e-4)],
@@ -44,6 +44,7 @@ PARAMETERS = {
     "zero_shift": [("jump", "rad", -5e-4), ("time", "s", 4711.0)],
     "instrument_scale": [("scale", "m/m", -1.5e-5)],
     "payload_error": [("mass", "kg", 2.0)],
+    "payload_change": [("mass", "kg", -2.0)],
     "loose_target": [("play_across", "mm", 0.3), ("x", "", 0.0), ("y", "", 0.0), ("z", "", 1.0)],
     "holder_sag": [("sag_x", "mm", 0.3), ("sag_y", "mm", 0.0)],
     "parallelogram_geometry": [("rod", "mm", 0.4), ("rocker", "mm", -0.2)],
@@ -66,6 +67,7 @@ SAID = {
     "base_shift": "the base jumped by 0.50 mm at 4711 s",
     "tool_shift": "the tool jumped by 0.50 mm at row 85",
     "zero_shift": "the zero of joint 2 jumped by −0.50 mrad at 4711 s",
+    "payload_change": "the payload is 2.0 kg lighter than stated",
     "loose_target": "the target is loose on the tool: it falls by 0.30 mm across the tool's z, to its lower side",
     "holder_sag": "what holds the target bends under its own weight, by 0.30 mm along the tool's x",
     "instrument_scale": "the instrument measures 15 millionths (ppm) too short",

@@ -169,6 +169,8 @@ def test_a_cause_of_several_places_says_where_the_others_are():
     wave = found("gear_eccentricity", "joint 4", Parameter("amplitude", "rad", 3e-4, 1e-6))
     told = cause_in_words("transmission", [play, wave])
     assert told.endswith("of play (also off: gear eccentricity at joint 4)"), "joint 4 has no play"
+    rare = replace(wave, inclusion=0.1)
+    assert cause_in_words("transmission", [play, rare]).endswith("of play"), "nobody relies on it"
 
 
 def test_nothing_missing_and_cannot_tell_are_whole_answers():

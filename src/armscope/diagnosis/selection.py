@@ -11,6 +11,7 @@ import numpy as np
 
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
+from armscope.diagnosis.errors_of_loads import OF_PAYLOADS
 from armscope.diagnosis.state import Selected
 from armscope.diagnosis.sustained_outliers import SelectionWithSustainedOutliers
 from armscope.fitting.linearisation import LinearisedTable
@@ -19,7 +20,6 @@ from armscope.inference.search import Search
 from armscope.measurement.noise import Noise
 from armscope.physics.effect import Placed
 from armscope.physics.model import FittedModel
-from armscope.physics.payload import PAYLOAD_ERROR
 from armscope.recordings.some_rows import some_rows
 
 
@@ -65,4 +65,4 @@ def _promising(found: Selected) -> list[Placed]:
     for hypothesis in (found.best, search.empty()):
         gain, _ = best_additions(found.problem, search.groups, hypothesis)
         kept |= {int(c) for c in np.argsort(-gain)[: LOOP.promising // 2]}
-    return [found.space.placed[c] for c in sorted(kept) if found.space.placed[c].effect is not PAYLOAD_ERROR]
+    return [found.space.placed[c] for c in sorted(kept) if found.space.placed[c].effect not in OF_PAYLOADS]

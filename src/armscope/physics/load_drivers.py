@@ -55,6 +55,11 @@ def _heavier(scene: LoadedArm, load: Driver) -> Array:
     return change
 
 
+def _heavier_during_run(scene: LoadedArm, load: Driver, *runs: str) -> Array:
+    """Change of a load driver per kilogram more at the tool point, in some runs alone."""
+    return np.where(np.isin(scene.recordings.run, runs), _heavier(scene, load), 0.0)
+
+
 def _off_centre(scene: LoadedArm, load: Driver, axis: int) -> Array:
     """Change of a load driver per metre that the payload's centre lies off the tool point along a tool axis."""
     off = replace(scene.misstated, payload_offset=np.eye(3)[axis])
@@ -116,6 +121,7 @@ LOADS: dict[str, DriverKind] = {
     "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),
     "payload torque": DriverKind(_payload_torque, needs="payload", follows=_LOAD),
     "heavier": DriverKind(_heavier, follows=_LOAD),
+    "heavier during run": DriverKind(_heavier_during_run, follows=_LOAD | {"run"}),
     "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
     "heavier link": DriverKind(_heavier_link, follows=_LOAD),
     "off centre": DriverKind(_off_centre, follows=_LOAD),

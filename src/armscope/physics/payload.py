@@ -32,9 +32,7 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
     """
     if recordings.payload is None:
         return
-    known = [part for part in elastic if part.placed.variant != UNKNOWN_MASSES]
-    absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
-    loaded = [*givings(known, recordings.torque is not None), *absolute]
+    loaded = what_bears(recordings, elastic)
     if not loaded:
         return
     heaviest = float(np.nan_to_num(recordings.payload).max(initial=0.0))
@@ -54,6 +52,13 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
         for axis, name in enumerate("xyz")
     )
     yield Placed(PAYLOAD_ERROR, "payload", centre, (1.0,) * 3, "payload", variant="centre")
+
+
+def what_bears(recordings: Recordings, elastic: Sequence[Part]) -> list[Product]:
+    """What gives way under a load at the flange in a model's parts, and by how much."""
+    known = [part for part in elastic if part.placed.variant != UNKNOWN_MASSES]
+    absolute = [g for part in elastic if part.placed.variant == UNKNOWN_MASSES for g in _absolute_giving(part)]
+    return [*givings(known, recordings.torque is not None), *absolute]
 
 
 def _absolute_giving(part: Part) -> Iterator[Product]:

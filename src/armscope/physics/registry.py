@@ -18,6 +18,7 @@ from armscope.physics import (
     instrument,
     loose_target,
     payload,
+    payload_change,
     thermal,
     tilting,
     transmission,
@@ -43,6 +44,7 @@ EFFECTS: tuple[Effect, ...] = (
     *instrument.EFFECTS,
     *loose_target.EFFECTS,
     *payload.EFFECTS,
+    *payload_change.EFFECTS,
     *freeform.EFFECTS,
 )
 """armscope's own."""

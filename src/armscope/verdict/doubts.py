@@ -66,7 +66,7 @@ def unless_confirmed(effect: FoundEffect) -> str:
         return ""
     if near:
         return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
-    if effect.inclusion is not None and effect.inclusion < WORDS.reliable:
+    if effect.inclusion is not None and effect.rarely_chosen:
         often = f"{100 * effect.inclusion:.0f} % of the tables"
         return f"Change nothing here before that shows it: of the same rows drawn anew, only {often} have this name."
     return ""

@@ -12,6 +12,7 @@ from pydantic import computed_field
 from pydantic.dataclasses import dataclass as told_in_files
 
 from armscope.core.types import Array, Number
+from armscope.verdict.constants import WORDS
 
 Specific = Literal["effect", "region", "family"]
 CauseLevel = Literal["effect", "place", "family"]
@@ -140,6 +141,11 @@ class FoundEffect:
     def __post_init__(self) -> None:
         if self.curve is not None and not self.description:
             object.__setattr__(self, "description", self.curve.description)
+
+    @property
+    def rarely_chosen(self) -> bool:
+        """Whether most tables of the same rows drawn anew do without it."""
+        return self.inclusion is not None and self.inclusion < WORDS.reliable
 
     @property
     def as_member(self) -> str:

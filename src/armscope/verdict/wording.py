@@ -125,9 +125,9 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
         members: all of them.
 
     Returns:
-        One clause, or none where there is no other member.
+        One clause, or none where there is no other member on which one can rely.
     """
-    others = [effect for effect in members if effect is not told]
+    others = [effect for effect in members if effect is not told and not effect.rarely_chosen]
     places = list(dict.fromkeys(effect.location for effect in others if effect.location != told.location))
     if not places:
         return [f"{spelled(len(others))} more at the same place"] if others else []
