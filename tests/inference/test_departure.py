@@ -95,3 +95,18 @@ def test_where_most_of_it_changes_nothing_follows_from_a_known_hypothesis(
     prior = prior_variances(problem, (), LARGE)
     columns = np.flatnonzero(prior)
     assert departure(near, columns, prior[columns]) is None
+
+
+@pytest.mark.parametrize("after", ["og", "ogcl", "gc"])
+def test_what_is_predicted_beside_a_known_hypothesis_is_what_a_factor_of_its_own_predicts(
+    setting: tuple[Problem, np.ndarray, np.ndarray], after: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem, *_ = setting
+    monkeypatch.setattr(evidence, "NUMERICS", replace(NUMERICS, beside=0))
+    near = evaluate(problem, effects(problem, "ogc"), PERFECT, 0.05)
+    monkeypatch.setattr(evidence, "NUMERICS", replace(NUMERICS, beside=0, noise_settled=np.inf))
+    found = evaluate(problem, effects(problem, after), PERFECT, near.noise, near)
+    assert found.near_mean is not None
+    np.testing.assert_allclose(found.near_mean, found.mean, atol=1e-9 * np.abs(found.mean).max())
+    p = len(problem.scale)
+    np.testing.assert_array_equal(found.coefficients(p)[found.columns], found.near_mean)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.inference.linear_algebra import profiled_gain
+from armscope.inference.linear_algebra import among, crossed, profiled_gain
 
 
 @pytest.mark.parametrize("chi2", [-1e-10, 0.0])
@@ -22,3 +22,12 @@ def test_what_chi2_falls_by_is_gained_and_what_the_noise_takes_with_it() -> None
     assert gain == pytest.approx(n / 2 * np.log(chi2 / (chi2 - fall)))
     (held,) = profiled_gain(np.array([fall]), chi2, n, 1.0, 1.0)
     assert held == pytest.approx(fall / 2)
+
+
+@pytest.mark.parametrize("some", [[], [4], [0, 1, 2, 3, 4, 5], [0, 2, 5], [9, 3, 4, 5, 6, 7, 8, 0]])
+@pytest.mark.parametrize("others", [[], [1, 2, 3, 7, 8, 9], [8, 6, 0]])
+def test_products_are_looked_up_wherever_their_columns_stand(some: list[int], others: list[int]) -> None:
+    G = np.random.default_rng(0).normal(size=(10, 10))
+    down, right = (np.array(each, dtype=np.intp) for each in (some, others))
+    np.testing.assert_array_equal(crossed(G, down, right), G[np.ix_(down, right)])
+    np.testing.assert_array_equal(among(G, down), G[np.ix_(down, down)])

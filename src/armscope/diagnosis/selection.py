@@ -12,6 +12,7 @@ import numpy as np
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import OF_PAYLOADS
+from armscope.diagnosis.selection_loop import SelectionLoop
 from armscope.diagnosis.state import Selected
 from armscope.diagnosis.sustained_outliers import SelectionWithSustainedOutliers
 from armscope.fitting.linearisation import LinearisedTable
@@ -48,15 +49,17 @@ def select(
         return SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress).run()
     rows = some_rows(table.recordings, LOOP.sample_rows, LOOP.rows_of_a_group)
     small = SelectionWithSustainedOutliers(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
-    found = small.run(of_a_sample=True)
+    small.search(of_a_sample=True)
     whole = SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress)
-    whole.follow(small, _promising(found))
+    whole.follow(small, _promising(small))
+    background = small.best.background
+    del small  # what it keeps of its rows and columns would take as much memory as all else
     progress("weighing all rows", 0.45)
-    whole.round((found.best.background,), last=True)
+    whole.round((background,), last=True)
     return whole.earned()
 
 
-def _promising(found: Selected) -> list[Placed]:
+def _promising(found: SelectionLoop) -> list[Placed]:
     """The chosen effects and those that come next, given the best hypothesis and given none."""
     search = Search.on(found.problem)
     candidates = found.space.candidates

@@ -83,11 +83,14 @@ class SelectionLoop:
         self.summed: tuple[RowNoise, Array | None, SummedRows] | None = None
         self.fit: Refit
 
-    def run(self, of_a_sample: bool = False) -> Selected:
-        """Rounds until nothing changes, without free curves if that predicts more.
+    def run(self) -> Selected:
+        """Rounds until nothing changes, and what of that earns its place."""
+        self.search()
+        self._look_for_lines_again()
+        return self.earned(finer=True)
 
-        Those on all rows still follow where these are a sample.
-        """
+    def search(self, of_a_sample: bool = False) -> None:
+        """Rounds until nothing changes, without free curves if that predicts more; all rows may still follow."""
         self._settle()
         plainer = predicted_without_curves(self.problem, self.blocks, self.found)
         if plainer is not None:
@@ -96,10 +99,6 @@ class SelectionLoop:
             self.candidates = [placed for placed in self.candidates if placed.parametrisation != "curve"]
             self._settle()
         self._refine(of_a_sample)
-        if of_a_sample:
-            return self.selected()
-        self._look_for_lines_again()
-        return self.earned(finer=True)
 
     def _settle(self) -> None:
         """Rounds until nothing changes."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,41 +32,54 @@ class TermBlocks:
         return cls(len(blocks), len(blocks[0]), grouped_columns([term for block in blocks for term in block]))
 
 
-def column_blocks(
-    groups: Sequence[TermBlocks],
-    layout: ParameterLayout,
-    inside: Indices,
-    model: FittedModel,
-    rows: Measured,
-    weights: RowWeights,
-) -> list[ColumnBlocks]:
-    """Sums over rows for blocks of terms against some of a layout's columns, mm per SI unit.
+class ModelColumns:
+    """Some of a model's columns at rows, and the response: what blocks of terms are multiplied with.
 
     Args:
-        groups: blocks are multiplied with those of their own group alone.
         layout: of the model's columns.
         inside: (k,) which of them.
         model: where columns are taken; the response is that before any effect, also of those that are not ``inside``.
         rows: the table and the channels that are used.
         weights: of the rows.
-
-    Returns:
-        Of each group: sums of its blocks with themselves, with the columns, and with the response.
     """
-    sums = [_Sums.of(terms, len(inside)) for terms in groups]
-    model_terms = grouped_columns([layout.terms[i] for i in inside])
-    values, active, present = active_effects(layout, model)
-    column_order = grouped_columns(present)
-    for chunk, posture in linearised(rows).chunks(model):
-        whitener = weights.whitener(chunk)
-        seen = WhitenedPosture(posture, whitener)
-        y = whitener.response(model, posture).T + structured_design(seen, column_order).matvec(
-            values[active][column_order.order]
-        )
-        X = structured_design(seen, model_terms)
-        for each in sums:
-            each.add(structured_design(seen, each.terms.order), X, y)
-    return [each.blocks(model_terms.back) for each in sums]
+
+    def __init__(
+        self, layout: ParameterLayout, inside: Indices, model: FittedModel, rows: Measured, weights: RowWeights
+    ) -> None:
+        self.layout, self.model, self.table, self.weights = layout, model, linearised(rows), weights
+        self.terms = grouped_columns([layout.terms[i] for i in inside])
+        self._kept: list[tuple[WhitenedPosture, StructuredDesign, Array]] | None = None
+
+    def kept(self) -> ModelColumns:
+        """The same, computed once where blocks come one after the other."""
+        self._kept = list(self._made())
+        return self
+
+    def _made(self) -> Iterator[tuple[WhitenedPosture, StructuredDesign, Array]]:
+        """Chunk by chunk: how all channels see the rows, the columns, and the response (c, n)."""
+        values, active, present = active_effects(self.layout, self.model)
+        effects = grouped_columns(present)
+        for chunk, posture in self.table.chunks(self.model):
+            whitener = self.weights.whitener(chunk)
+            seen = WhitenedPosture(posture, whitener)
+            y = whitener.response(self.model, posture).T
+            y = y + structured_design(seen, effects).matvec(values[active][effects.order])
+            yield seen, structured_design(seen, self.terms), y
+
+    def sums(self, groups: Sequence[TermBlocks]) -> list[ColumnBlocks]:
+        """Sums over rows for blocks of terms, mm per SI unit.
+
+        Args:
+            groups: blocks are multiplied with those of their own group alone.
+
+        Returns:
+            Of each group: sums of its blocks with themselves, with the columns, and with the response.
+        """
+        sums = [_Sums.of(terms, len(self.terms.order)) for terms in groups]
+        for seen, X, y in self._made() if self._kept is None else self._kept:
+            for each in sums:
+                each.add(structured_design(seen, each.terms.order), X, y)
+        return [each.blocks(self.terms.back) for each in sums]
 
 
 @dataclass(eq=False)

@@ -17,7 +17,7 @@ from scipy.linalg.blas import dtrmm
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
 from armscope.inference.evidence import Hypothesis
-from armscope.inference.linear_algebra import profiled_loss, solve_lower
+from armscope.inference.linear_algebra import crossed, profiled_loss, solve_lower
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.prices import half_line_columns, negative_log_prior
 from armscope.inference.problem import Problem, SelectedEffect, prior_variances
@@ -67,8 +67,7 @@ def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> 
         Products of the columns with what the hypothesis leaves, and what it takes of them.
     """
     G, b, inside = problem.equations.G, problem.equations.b, hypothesis.columns
-    # G is symmetric: few whole rows are read, not parts of many, and what is multiplied stays where it is
-    beside = G.take(inside, axis=0).take(columns, axis=1)
+    beside = crossed(G, inside, columns)
     taken = np.ascontiguousarray(dtrmm(1.0, hypothesis.inverse, beside.T, side=1, lower=1, trans_a=1, overwrite_b=1))
     return ConditionedColumns(columns, b[columns] - taken @ solve_lower(hypothesis.cholesky, b[inside]), taken)
 

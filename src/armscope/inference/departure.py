@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import NUMERICS
+from armscope.inference.linear_algebra import among, crossed
 from armscope.inference.normal_equations import NormalEquations
 
 
@@ -86,11 +87,14 @@ class Departure:
     inner: Array
     change: Array
 
-    def means(self, columns: Indices) -> Array:
-        """(h,) values of some columns of which none has a smaller variance than it had."""
-        mean, there, at = np.zeros(len(columns)), *self._known(columns)
-        mean[there] = self.known.mean[at]
-        return np.asarray(mean + self._moved(columns) @ self.change)
+    def means(self, columns: Indices) -> Array | None:
+        """(h,) values of some columns; None where one has a smaller variance than it had."""
+        if np.isin(self.lost, columns).any():
+            return None
+        mean = np.zeros(len(self.known.equations.b))
+        mean[self.known.columns] = self.known.mean + self.moves @ self.change
+        mean[self.gained] += self.change[len(self.lost) :]
+        return np.asarray(mean[columns])
 
     def spread(self, columns: Indices) -> Array | None:
         """(h,) their standard errors, in units of the noise; None where one has a smaller variance than it had."""
@@ -190,15 +194,15 @@ class _Change:
         known, s = self.known, self.known.noise**2
         G, b, inside, inverse = known.equations.G, known.equations.b, known.columns, known.inverse
         at = np.searchsorted(inside, self.lost)
-        taken = inverse @ G[np.ix_(inside, self.gained)]
+        taken = inverse @ crossed(G, inside, self.gained)
         both = inverse.T @ np.concatenate([inverse[:, at], taken], axis=1)
         r = len(at)
         moves = np.concatenate([s * both[:, :r], -both[:, r:]], axis=1)
-        left = G[np.ix_(self.gained, self.gained)] - taken.T @ taken
+        left = among(G, self.gained) - taken.T @ taken
         own, shared = np.zeros((moves.shape[1],) * 2), np.zeros((moves.shape[1],) * 2)
         own[:r, :r], own[r:, r:] = s * moves[at, :r], left
         shared[:r, :r], shared[r:, r:] = -moves[at, :r], left / s
         shared[:r, r:] = both[at, r:]
         shared[r:, :r] = both[at, r:].T
-        pull = np.concatenate([known.mean[at], (b[self.gained] - G[np.ix_(self.gained, inside)] @ known.mean) / s])
+        pull = np.concatenate([known.mean[at], (b[self.gained] - crossed(G, self.gained, inside) @ known.mean) / s])
         return moves, own, shared, pull

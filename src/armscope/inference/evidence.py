@@ -40,6 +40,8 @@ class Hypothesis:
         equations: the sums that it is of.
         known_factor, known_mean, known_inverse: its factor, means and the factor's inverse, where evaluating it needed
             them.
+        near_mean: its means as they follow from those of a hypothesis near by: what it predicts then needs no factor,
+            and what departs from it does not add up rounding.
     """
 
     settled: ClassVar[bool] = True
@@ -56,6 +58,7 @@ class Hypothesis:
     known_factor: Array | None = field(default=None, repr=False)
     known_mean: Array | None = field(default=None, repr=False)
     known_inverse: Array | None = field(default=None, repr=False)
+    near_mean: Array | None = field(default=None, repr=False)
 
     @functools.cached_property
     def cholesky(self) -> Array:
@@ -106,7 +109,7 @@ class Hypothesis:
     def coefficients(self, p: int) -> Array:
         """(p,) posterior mean of all scaled coefficients, zero where a column takes no part."""
         full = np.zeros(p)
-        full[self.columns] = self.mean
+        full[self.columns] = self.mean if self.near_mean is None else self.near_mean
         return full
 
 
@@ -204,14 +207,15 @@ class _Asked:
 
     def beside(self, step: Departure) -> Hypothesis:
         """From a first step beside another hypothesis; by a factor of its own only where the noise moves."""
-        spread = step.spread(self.half_line)
-        if spread is None:
+        spread, means = step.spread(self.half_line), step.means(self.half_line)
+        if spread is None or means is None:
             return self.evaluated(step.known.noise)
         updated = self._updated(step.misfit, step.effective_dof)
         if _moves(step.known.noise, updated):
             return self._settled(updated, NUMERICS.noise_steps - 1, _First(step.effective_dof, spread))
-        z_scores = step.means(self.half_line) / (step.known.noise * spread)
-        return self._found(step.known.noise, step.log_evidence, step.rss, z_scores)
+        z_scores = means / (step.known.noise * spread)
+        near = None, None, None, step.means(self.columns)
+        return self._found(step.known.noise, step.log_evidence, step.rss, z_scores, near)
 
     def _settled(
         self, noise: float, steps: int, first: _First, known: tuple[Array | None, Array | None] = (None, None)
@@ -241,9 +245,9 @@ class _Asked:
         evidence: float,
         rss: float,
         z_scores: Array,
-        known: tuple[Array | None, Array | None, Array | None] = (None, None, None),
+        known: tuple[Array | None, ...] = (),
     ) -> Hypothesis:
-        """The hypothesis, its price taken off, with factor, means and the factor's inverse where they are known."""
+        """The hypothesis, its price taken off, with what is known of factor, means, the factor's inverse, and means."""
         posterior = evidence - negative_log_prior(self.problem, self.chosen, self.background, z_scores)
         named = (self.chosen, self.background, noise, posterior, evidence)
         return Hypothesis(*named, self.columns, self.variance, rss, self.problem.equations, *known)

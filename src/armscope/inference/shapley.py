@@ -18,7 +18,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import BUDGET
-from armscope.inference.linear_algebra import lower_cholesky, solve_lower
+from armscope.inference.linear_algebra import among, lower_cholesky, solve_lower
 from armscope.inference.normal_equations import NormalEquations
 
 
@@ -62,7 +62,7 @@ def shares(
 
 def _explained(G: Array, b: Array, held: Array, columns: Indices) -> Array:
     """What each column explains beyond those before it, mm^2."""
-    factor = lower_cholesky(G[np.ix_(columns, columns)], held[columns])
+    factor = lower_cholesky(among(G, columns), held[columns])
     return solve_lower(factor, b[columns]) ** 2
 
 

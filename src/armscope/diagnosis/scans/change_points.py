@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
@@ -165,13 +166,12 @@ def step_sums(beside: ModelRows, rows: Indices, cuts: Indices, terms: Sequence[T
     segment = np.searchsorted(cuts, np.arange(len(rows)), side="right")
     own, cross, b = np.zeros((len(cuts) + 1, c, c)), np.zeros((len(cuts) + 1, k, c)), np.zeros((len(cuts) + 1, c))
     for part, seen, y, X in beside.on(rows):
-        E = columns(seen, terms).reshape(*y.shape, -1)
+        E = columns(seen, terms).reshape(*y.shape, c)
         starts = np.flatnonzero(np.diff(segment[part], prepend=-1))
-        for total, products in (
-            (own, np.swapaxes(E, 1, 2) @ E),
-            (cross, np.swapaxes(X, 1, 2) @ E),
-            (b, np.einsum("ni,nic->nc", y, E)),
-        ):
-            total[segment[part][starts]] += np.add.reduceat(products, starts, axis=0)
+        for start, end in itertools.pairwise([*starts, len(part)]):
+            at, step = segment[part[start]], E[start:end].reshape(-1, c)
+            own[at] += step.T @ step
+            cross[at] += X[start:end].reshape(-1, k).T @ step
+            b[at] += y[start:end].reshape(-1) @ step
     own, cross, b = (np.cumsum(x[::-1], axis=0)[::-1][1:] for x in (own, cross, b))
     return ColumnBlocks(own, cross, b)

@@ -9,7 +9,7 @@ import numpy as np
 
 from armscope.diagnosis.scans.constants import SCANS
 from armscope.diagnosis.scans.context import ScanContext, columns_of, few_rows, scanned_rows, scores_given
-from armscope.fitting.column_blocks import TermBlocks, column_blocks
+from armscope.fitting.column_blocks import ModelColumns, TermBlocks
 from armscope.inference.evidence import Hypothesis
 from armscope.physics.effect import Placed
 from armscope.physics.placing import moving_joints
@@ -33,7 +33,7 @@ def mesh_lines(context: ScanContext, given: Sequence[Hypothesis], most: int = ME
     table = context.few or few_rows(context.recordings)
     lines = [_lines(j, most) for j in moving_joints(context.recordings)]
     terms = [of_joint for _, of_joint in lines]
-    every = column_blocks(terms, context.space.layout, columns, context.model, table, weights)
+    every = ModelColumns(context.space.layout, columns, context.model, table, weights).sums(terms)
     for (placed, _), sums in zip(lines, every, strict=True):
         for hypothesis in given:
             scores = scores_given(context.problem, hypothesis, sums, columns)

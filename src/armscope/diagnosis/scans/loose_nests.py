@@ -8,9 +8,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from armscope.diagnosis.scans.constants import SCANS
-from armscope.diagnosis.scans.context import ScanContext, columns_of, few_rows, scanned_rows, scores_given
-from armscope.fitting.column_blocks import TermBlocks, column_blocks
+from armscope.diagnosis.scans.context import ScanContext, few_rows, scanned_rows
+from armscope.fitting.column_blocks import ModelColumns, TermBlocks
+from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
+from armscope.inference.problem import Problem
 from armscope.physics.constants import FORM
 from armscope.physics.effect import Placed
 from armscope.physics.loose_target import LOOSE_TARGET, nests_about, nests_anyhow
@@ -29,25 +31,32 @@ def loose_nests(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[P
     if not any(placed.effect is LOOSE_TARGET for placed in context.space.placed):
         return
     for hypothesis in given:
+        beside = _beside(context, hypothesis)
         for nests in nests_anyhow().values():
-            found, promised = _best(context, hypothesis, nests, _blocks(nests))
+            found, promised = _best(context.problem, hypothesis, beside, nests, _blocks(nests))
             for tilt in (FORM.nest_step_deg / part for part in (2, 4, 10)):
                 about = nests_about(found, tilt)
-                found, promised = _best(context, hypothesis, about, TermBlocks.of([each.terms for each in about]))
+                blocks = TermBlocks.of([each.terms for each in about])
+                found, promised = _best(context.problem, hypothesis, beside, about, blocks)
             if promised > SCANS.worth_a_look:
                 yield found
 
 
-def _best(
-    context: ScanContext, hypothesis: Hypothesis, nests: Sequence[Placed], blocks: TermBlocks
-) -> tuple[Placed, float]:
-    """The most promising of some nests, and how many nats it promises."""
+def _beside(context: ScanContext, hypothesis: Hypothesis) -> ModelColumns:
+    """What all nests are multiplied with."""
     count = len(context.recordings)
     rows = scanned_rows(count)
     table = context.few or few_rows(context.recordings)
-    weights, columns = context.weights.take(rows, len(rows) / count), columns_of([hypothesis])
-    (sums,) = column_blocks([blocks], context.space.layout, columns, context.model, table, weights)
-    scores = scores_given(context.problem, hypothesis, sums, columns)
+    weights = context.weights.take(rows, len(rows) / count)
+    return ModelColumns(context.space.layout, hypothesis.columns, context.model, table, weights).kept()
+
+
+def _best(
+    problem: Problem, hypothesis: Hypothesis, beside: ModelColumns, nests: Sequence[Placed], blocks: TermBlocks
+) -> tuple[Placed, float]:
+    """The most promising of some nests, and how many nats it promises."""
+    (sums,) = beside.sums([blocks])
+    scores = block_scores(problem, hypothesis, sums)
     return nests[int(np.argmax(scores))], float(scores.max())
 
 

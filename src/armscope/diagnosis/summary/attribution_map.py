@@ -10,7 +10,7 @@ from armscope.core.location import Location
 from armscope.core.sampling import spread_evenly
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.block_sums import normal_equations_by_block
-from armscope.fitting.column_blocks import TermBlocks, column_blocks
+from armscope.fitting.column_blocks import ModelColumns, TermBlocks
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
@@ -72,7 +72,7 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     sizes = sorted({len(terms) for _, terms in found})
     by_size = [[cell for cell in found if len(cell[1]) == size] for size in sizes]
     blocks = [TermBlocks.of([terms for _, terms in cells]) for cells in by_size]
-    for cells, sums in zip(by_size, column_blocks(blocks, layout, everything, model, table, w), strict=True):
+    for cells, sums in zip(by_size, ModelColumns(layout, everything, model, table, w).sums(blocks), strict=True):
         for target, inside in ((before, layout.frames), (left, everything)):
             G = fitted.G[np.ix_(inside, inside)]
             factor = lower_cholesky(G, 1e-9 * np.diag(G) + 1e-12)
