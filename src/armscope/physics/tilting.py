@@ -51,7 +51,16 @@ def _tilt(scene: Scene, location: str) -> Term:
 
 
 def tilt_per_moment(scene: Scene, location: str, axes: int = 2) -> float:
-    """How far a bearing or the base plausibly tilts under a moment, rad/(N m); infinite where none is."""
+    """How far a bearing or the base plausibly tilts under a moment.
+
+    Args:
+        scene: the rows.
+        location: the joint, or "base".
+        axes: of its frame, x first, about which a moment tilts it.
+
+    Returns:
+        rad/(N m); infinite where none is.
+    """
     return plausible_give(PLAUSIBLE.bearing_rad, np.linalg.norm(scene.moment(location)[:, :axes], axis=1))
 
 
