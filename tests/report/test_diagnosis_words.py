@@ -22,6 +22,7 @@ LOCATIONS = {
     "base_shift": "base", "base_compliance": "base", "tool_shift": "tool", "instrument_scale": "instrument",
     "payload_error": "payload", "parallelogram_geometry": "parallelogram", "joint_coupling": "joint 6 from joint 5",
     "loose_target": "tool", "holder_sag": "tool", "payload_change": "payload",
+    "thermal_bow": "link 2",
 }  # fmt: skip
 PARAMETERS = {
     "joint_offset": [("offset", "rad", 8.6e-4)],
@@ -45,6 +46,7 @@ PARAMETERS = {
     "instrument_scale": [("scale", "m/m", -1.5e-5)],
     "payload_error": [("mass", "kg", 2.0)],
     "payload_change": [("mass", "kg", -2.0)],
+    "thermal_bow": [("tilt_x", "rad/K", 0.0), ("tilt_y", "rad/K", 6e-5)],
     "loose_target": [("play_across", "mm", 0.3), ("x", "", 0.0), ("y", "", 0.0), ("z", "", 1.0)],
     "holder_sag": [("sag_x", "mm", 0.3), ("sag_y", "mm", 0.0)],
     "parallelogram_geometry": [("rod", "mm", 0.4), ("rocker", "mm", -0.2)],
@@ -68,6 +70,7 @@ SAID = {
     "tool_shift": "the tool jumped by 0.50 mm at row 85",
     "zero_shift": "the zero of joint 2 jumped by −0.50 mrad at 4711 s",
     "payload_change": "the payload is 2.0 kg lighter than stated",
+    "thermal_bow": "link 2 bows by 60 µrad per K about its y as it gets warmer",
     "loose_target": "the target is loose on the tool: it falls by 0.30 mm across the tool's z, to its lower side",
     "holder_sag": "what holds the target bends under its own weight, by 0.30 mm along the tool's x",
     "instrument_scale": "the instrument measures 15 millionths (ppm) too short",

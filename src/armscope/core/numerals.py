@@ -10,6 +10,7 @@ UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
     "rad/(N m)": ((1e-3, 1e3, "mrad per N m"), (0.0, 1e6, "µrad per N m")),
     "rad/(m/s^2)": ((1e-3, 1e3, "mrad per m/s²"), (0.0, 1e6, "µrad per m/s²")),
     "rad/rad": ((1e-3, 1e3, "mrad per rad"), (0.0, 1e6, "µrad per rad")),
+    "rad/K": ((1e-3, 1e3, "mrad per K"), (0.0, 1e6, "µrad per K")),
     "rad/h": ((1e-3, 1e3, "mrad per hour"), (0.0, 1e6, "µrad per hour")),
     "mm/h": ((0.1, 1.0, "mm per hour"), (0.0, 1e3, "µm per hour")),
     "m/m": ((0.0, 1e6, "millionths (ppm)"),),

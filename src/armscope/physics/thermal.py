@@ -1,22 +1,25 @@
-"""Thermal effects: lengths that grow with temperature; they hold at 20 C."""
+"""Thermal effects: links that grow, or bow, with temperature; as stated they are at 20 C."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
 
-from armscope.physics.clause import below_zero
+from armscope.physics.clause import below_zero, clear_ones
 from armscope.physics.constants import FORM, PLAUSIBLE
-from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, term
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, term
 from armscope.physics.placing import varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+
+WARMTH = Driver("warmth")
+"""Kelvin above 20 C."""
 
 
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not varies(recordings.temperature, FORM.least_span_k):
         return
-    for place, products in growing_links(arm, Driver("warmth")):
+    for place, products in growing_links(arm, WARMTH):
         coefficient = term("coefficient", "1/K", *products, plausible=PLAUSIBLE.expansion_per_k)
         yield Placed(THERMAL_EXPANSION, place, (coefficient,), (1.0,), "temperature")
 
@@ -81,4 +84,39 @@ THERMAL_EXPANSION = Effect(
     needs=("temperature_c",),
 )
 
-EFFECTS = [THERMAL_EXPANSION]
+
+def _place_bows(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not varies(recordings.temperature, FORM.least_span_k):
+        return
+    for place, _ in growing_links(arm, ONE):
+        behind = place if arm.description.dh is not None and not arm.is_modified_dh else place.replace("link", "joint")
+        terms = tuple(
+            term(f"tilt_{axis[1]}", "rad/K", (Direction(behind, axis), WARMTH), plausible=PLAUSIBLE.bow_rad_per_k)
+            for axis in ("rx", "ry")
+        )
+        yield Placed(THERMAL_BOW, place, terms, (1.0, 1.0), "temperature")
+
+
+THERMAL_BOW = Effect(
+    "thermal_bow",
+    "thermal",
+    _place_bows,
+    "The link bows as it gets warmer: one side is warmer than the other, or of another material.",
+    "Put a thermometer on both sides of the link, and measure one pose cold and warm.",
+    Cure(
+        "Warm up before measuring, and keep what warms one side (a motor, a draught, the sun) away,",
+        otherwise="or let the corrected model's inverse kinematics compute the commands (the link's end tilted by tilt "
+        "x (temperature - 20 C); `armscope compensate`).",
+        change="temperature",
+        instruction="Warm the arm up before work, and find what warms one side of {location}.",
+    ),
+    clauses=(
+        clear_ones("{location} bows {} as it gets warmer", tilt_x="about its x", tilt_y="about its y"),
+        "{location} bows as it gets warmer",
+    ),
+    labels={"tilt_x": "tilt of its end about x", "tilt_y": "about y"},
+    atlas="temperature",
+    needs=("temperature_c",),
+)
+
+EFFECTS = [THERMAL_EXPANSION, THERMAL_BOW]

@@ -268,7 +268,7 @@ def plain(text: str) -> str:
     return words.replace("unknown at", "an unexplained curve at")
 
 
-IMPLAUSIBLE = {"mm": 15.0, "rad": 0.1, "rad/rad": 0.05, "m/m": 2e-3, "1/K": 1e-4}
+IMPLAUSIBLE = {"mm": 15.0, "rad": 0.1, "rad/rad": 0.05, "m/m": 2e-3, "1/K": 1e-4, "rad/K": 1e-3}
 """Beyond these a fitted error of shape, drives or instrument is none of an arm that works at all: links are
 made to a few tenths of a mm, mastering is good to a few mrad, steel and aluminium grow by 12 and 24 millionths per K
 (ISO 230-1 and makers' data sheets); the bounds lie several times beyond. Such a value stands in for another one."""
