@@ -15,10 +15,9 @@ from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
 from armscope.verdict.corrections import (
-    corrected_cells,
     corrected_origins,
     corrected_rows,
-    numbers_told,
+    corrected_table,
     unsettled,
     zero_offsets,
 )
@@ -170,14 +169,15 @@ def test_axes_that_are_skew_have_a_number_of_their_own_among_the_rows_and_other_
     arm = build_arm(nominal_description("ur5e"))
     skew = found("link_geometry", "link 2", Parameter("beta", "rad", 8e-4, 1e-5))
     twisted = found("link_geometry", "link 2", Parameter("alpha", "rad", 8e-4, 1e-5))
-    rows, others = corrected_rows(saying(arm, skew)), corrected_rows(saying(arm, twisted))
+    rows = corrected_rows(saying(arm, skew))
     assert rows is not None
-    assert others is not None
     assert rows["corrected_beta_deg"].tolist() == pytest.approx([0, np.degrees(8e-4), 0, 0, 0, 0])
-    assert list(numbers_told(rows).values()) == ["a", "α", "d", "θ offset", "β"]
-    assert list(numbers_told(others).values()) == ["a", "α", "d", "θ offset"]
-    assert corrected_cells(saying(arm, skew))[1][-2:] == ["0", "0.0458 ± 0.0011"]
-    assert [len(row) for row in corrected_cells(saying(arm, twisted))] == [9] * 6
+    heads, cells = corrected_table(saying(arm, skew))
+    assert heads == ["row", "a", "α", "d", "θ offset", "β"]
+    assert cells[1][-1] == ("0", "0.0458 ± 0.0011")
+    heads, cells = corrected_table(saying(arm, twisted))
+    assert heads == ["row", "a", "α", "d", "θ offset"]
+    assert [row[2].corrected for row in cells] == ["", "0.0458 ± 0.0011", "", "", "", ""]
 
 
 def test_an_arm_has_rows_or_origins_never_both() -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -112,36 +114,47 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     return pd.DataFrame(rows)
 
 
-def numbers_told(rows: pd.DataFrame) -> dict[str, str]:
-    """Which numbers of corrected rows are told, with their names: β only where a row has one, as few arms' do."""
-    skewed = bool(rows[["stated_beta_deg", "corrected_beta_deg"]].any(axis=None))
-    return {name: told for name, (_, told) in NUMBERS.items() if name != "beta_deg" or skewed}
+class CorrectedCell(NamedTuple):
+    """Of the table of corrected rows: a number as stated, and as corrected, "" where it is not."""
+
+    stated: str
+    corrected: str = ""
 
 
-def corrected_cells(verdict: Diagnosis) -> list[list[str]]:
-    """The same rows to be read by people: number of the row, then stated and corrected by turns of `numbers_told`.
+def corrected_table(verdict: Diagnosis) -> tuple[list[str], list[list[CorrectedCell]]]:
+    """The same rows to be read by people.
 
-    What is corrected has its interval beside it and as many decimals as that leaves; what is not says "same".
+    What is corrected has its interval beside it and as many decimals as that leaves.
+
+    Args:
+        verdict: of the arm.
+
+    Returns:
+        The heads of the columns, the row's number first, and the rows; both empty where there are none.
     """
     table = corrected_rows(verdict)
+    if table is None:
+        return [], []
+    numbers = [name for name in NUMBERS if name != "beta_deg" or table[f"corrected_{name}"].any()]
+    rows = [
+        [CorrectedCell(str(row["row"])), *(_corrected(row, name, verdict) for name in numbers)]
+        for row in table.to_dict("records")
+    ]
+    return ["row", *(NUMBERS[name][1] for name in numbers)], rows
+
+
+def _corrected(row: Mapping[Any, Any], name: str, verdict: Diagnosis) -> CorrectedCell:
+    stated = f"{row[f'stated_{name}']:.10g}".replace("-", "−")
+    if not row[f"correction_{name}"]:
+        return CorrectedCell(stated)
     known = {
         (e.location, p.name): p.stderr for e in verdict.effects if e.effect == LINK_GEOMETRY.name for p in e.parameters
     }
-    rows: list[list[str]] = []
-    if table is None:
-        return rows
-    for row in table.to_dict("records"):
-        cells = [str(row["row"])]
-        for name in numbers_told(table):
-            key, _ = NUMBERS[name]
-            stderr = known.get((f"link {row['row']}", key), math.nan)
-            unit, stderr = ("°", math.degrees(stderr)) if name.endswith("deg") else ("mm", stderr)
-            decimals, half = entry_decimals(unit, stderr), INTERVAL * stderr
-            beside = f" ± {half:.{decimals}f}" if half > 0 else ""
-            changed = f"{row[f'corrected_{name}']:.{decimals}f}{beside}" if row[f"correction_{name}"] else "same"
-            cells += [f"{row[f'stated_{name}']:.10g}", changed]
-        rows.append([cell.replace("-", "−") for cell in cells])
-    return rows
+    stderr = known.get((f"link {row['row']}", NUMBERS[name][0]), math.nan)
+    unit, stderr = ("°", math.degrees(stderr)) if name.endswith("deg") else ("mm", stderr)
+    decimals, half = entry_decimals(unit, stderr), INTERVAL * stderr
+    beside = f" ± {half:.{decimals}f}" if half > 0 else ""
+    return CorrectedCell(stated, f"{row[f'corrected_{name}']:.{decimals}f}{beside}".replace("-", "−"))
 
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:

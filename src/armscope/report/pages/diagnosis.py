@@ -23,10 +23,9 @@ from armscope.verdict.controllers import ZEROS_IN_IT, ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
-    corrected_cells,
     corrected_origins,
     corrected_rows,
-    numbers_told,
+    corrected_table,
     unsettled,
     wrongly_stated,
     zero_offsets,
@@ -89,6 +88,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
     dh = verdict.model.arm.description.dh
     another = another_model(verdict)
     tasks, by_calibration = () if another else subject.order.tasks, subject.order.by_calibration
+    heads, cells = corrected_table(verdict)
     content = {
         **_about(verdict),
         "order": subject.order,
@@ -100,8 +100,9 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
         "differ": from_part_to_part(verdict),
         "background": percent(verdict.background.share),
-        "dh": [] if rows is None else [*zip(corrected_cells(verdict), rows["step"].tolist(), strict=True)],
-        "dh_numbers": [] if rows is None else [*numbers_told(rows).values()],
+        "dh": [] if rows is None else [*zip(cells, rows["step"].tolist(), strict=True)],
+        "dh_heads": heads,
+        "skewed": "β" in " ".join(heads),
         "calibrated": "" if rows is None else next((s for s in rows["step"] if s and s == by_calibration), ""),
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
