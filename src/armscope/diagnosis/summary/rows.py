@@ -23,7 +23,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Residuals
-from armscope.verdict.schema import ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
 from armscope.verdict.wording import millimetres
 
 
@@ -92,7 +92,7 @@ def _misread_rms(model: FittedModel, rows: Recordings) -> float:
 
 
 def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
-    """That what is promised holds without rows that look like bad shots, where they are many and make a difference.
+    """That rows that look like bad shots are many and make a difference; where too many, what is promised is with them.
 
     Args:
         state: the finished selection.
@@ -111,7 +111,7 @@ def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
         f"{millimetres(with_them)}, not {millimetres(after)}. So many are seldom bad shots{side}. Measure some of them "
         "again before anything is changed."
     )
-    return [Notice(ROWS_LEFT_OUT, text)]
+    return [Notice(NO_BAD_SHOTS if out > TELLING.most_bad_shots * rows else ROWS_LEFT_OUT, text)]
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
