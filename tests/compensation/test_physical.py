@@ -112,6 +112,19 @@ def test_how_well_rows_that_took_no_part_were_met_travels_with_the_model(tmp_pat
     assert load_identified(tmp_path / "domain.json").held_out_mm is None
 
 
+def test_that_many_rows_fit_nothing_travels_with_the_model_and_is_told_of_its_commands(tmp_path):
+    """Play of an unknown side: 0.14 mm were told, those of the other branch left out, and 0.98 mm reached."""
+    model, known = physical()
+    save_identified(tmp_path / "domain.json", replace(known, held_out_mm=0.58, many_fit_nothing=True))
+    many = load_identified(tmp_path / "domain.json")
+    assert many.many_fit_nothing
+    path = as_path(table_of(physical_path(6)[0], **CONTEXT), "path", model.arm)
+    for identified, doubted in ((many, True), (replace(many, many_fit_nothing=False), False)):
+        notes = " ".join(compensate_physical(model, identified, path).notes)
+        assert "were missed by 0.58 mm" in notes
+        assert ("fit nothing of this model" in notes) == doubted
+
+
 def test_a_drift_is_not_continued_into_another_day():
     model, identified = physical()
     part = model.parts[0]

@@ -176,7 +176,12 @@ def _foretold(identified: Identified, measured: bool) -> tuple[str, ...]:
         "; in the base frame all points may be off by one more shift and turn, the same for all: recordings do not "
         "tell an error of the first axis from where the base stands (touch a known point to find it)"
     )
-    return (f"the arm will miss what the model does: {told}{'' if measured else shifted}",)
+    doubt = (
+        "more of the recorded rows fit nothing of this model than bad shots would, and they are in that number: "
+        "measure some of them again, and diagnose anew, before these commands are used"
+    )
+    missing = f"the arm will miss what the model does: {told}{'' if measured else shifted}"
+    return (missing, *([doubt] if identified.many_fit_nothing else []))
 
 
 def _same(points: Array) -> Array:

@@ -63,6 +63,7 @@ class IdentifiedContent(Strict):
     payload_left_out: bool = False
     time_s: tuple[float, float] | None
     held_out_mm: Annotated[float, Field(ge=0, le=1e9)] | None = None
+    many_fit_nothing: bool = False
     torque_weights: tuple[Numbers, ...] | None
     domain: DomainContent
 

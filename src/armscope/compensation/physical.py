@@ -41,6 +41,7 @@ class Identified:
         torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
         payload_left_out: whether some rows stated no payload where others did: the model took it for none.
         held_out_mm: how well rows that took no part were met, RMS of the distance, noise included; None: not known.
+        many_fit_nothing: whether more of the rows fit nothing of the model than bad shots would.
     """
 
     arm: str
@@ -50,6 +51,7 @@ class Identified:
     torque_weights: Array | None = None
     payload_left_out: bool = False
     held_out_mm: float | None = None
+    many_fit_nothing: bool = False
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
@@ -70,18 +72,22 @@ class Identified:
             **({"payload_left_out": True} if self.payload_left_out else {}),
             "time_s": None if self.time_s is None else list(self.time_s),
             **({} if self.held_out_mm is None else {"held_out_mm": self.held_out_mm}),
+            **({"many_fit_nothing": True} if self.many_fit_nothing else {}),
             "torque_weights": None if self.torque_weights is None else self.torque_weights.tolist(),
             "domain": self.domain.to_dict(),
         }
 
 
-def identified_on(arm: Arm, recordings: Recordings, per_axis_mm: float = np.nan) -> Identified:
-    """What the recordings of a diagnosis, as it used them, say about where its model holds.
+def identified_on(
+    arm: Arm, recordings: Recordings, per_axis_mm: float = np.nan, many_fit_nothing: bool = False
+) -> Identified:
+    """What the recordings of a diagnosis say about where its model holds.
 
     Args:
         arm: the nominal arm.
         recordings: as the diagnosis used them.
         per_axis_mm: RMS per axis on rows that took no part; NaN where it is not known.
+        many_fit_nothing: whether more of the rows fit nothing of the model than bad shots would.
 
     Returns:
         The range of angles and context, and how well the model foretells there.
@@ -90,21 +96,19 @@ def identified_on(arm: Arm, recordings: Recordings, per_axis_mm: float = np.nan)
         InputError: the recordings are of another arm.
     """
     recordings.check_motors(arm.name, arm.n_motors)
-    names, units = [f"q{motor}" for motor in range(1, arm.n_motors + 1)], ["rad"] * arm.n_motors
-    columns = [recordings.motor_angles]
-    names, units = [*names, "payload_kg"], [*units, "kg"]
-    columns.append(_payload(recordings)[:, None])  # what was never recorded was never carried
+    names = [*(f"q{motor}" for motor in range(1, arm.n_motors + 1)), "payload_kg"]
+    units = [*(["rad"] * arm.n_motors), "kg"]
+    columns = [recordings.motor_angles, _payload(recordings)[:, None]]  # what was never recorded was never carried
     temperature = recordings.temperature
     if temperature is not None and not np.isnan(temperature).all():
         names, units = [*names, "temperature_c"], [*units, "degC"]
         columns.append(np.where(np.isnan(temperature), np.nanmean(temperature), temperature)[:, None])
-    weights = _torque_weights(arm, recordings)
     domain = Domain.of(np.concatenate(columns, axis=1), names, units)
-    empty = np.zeros(0) if recordings.payload is None else np.isnan(recordings.payload)
-    left_out = bool(empty.any() and not empty.all())
-    held_out = np.sqrt(3) * per_axis_mm
-    known = float(held_out) if np.isfinite(held_out) else None
-    return Identified(arm.name, domain, _span(recordings.payload), _span(recordings.time), weights, left_out, known)
+    empty = np.zeros(1) if recordings.payload is None else np.isnan(recordings.payload)
+    left_out = 0 < np.mean(empty) < 1
+    known = float(np.sqrt(3) * per_axis_mm) if np.isfinite(per_axis_mm) else None
+    spans, weights = (_span(recordings.payload), _span(recordings.time)), _torque_weights(arm, recordings)
+    return Identified(arm.name, domain, *spans, weights, bool(left_out), known, many_fit_nothing)
 
 
 def _span(values: Array | None) -> tuple[float, float] | None:
@@ -126,15 +130,15 @@ def load_identified(path: Path | str) -> Identified:
         InputError: it is none.
     """
     content = validate(IdentifiedContent, mapping(read_json(path, WHAT), path, WHAT), path)
-    weights = content.torque_weights
     return Identified(
         content.robot,
         Domain.from_dict(content.domain.model_dump()),
         content.payload_kg,
         content.time_s,
-        None if weights is None else np.array(weights, dtype=float),
+        None if content.torque_weights is None else np.array(content.torque_weights, dtype=float),
         content.payload_left_out,
         content.held_out_mm,
+        content.many_fit_nothing,
     )
 
 
@@ -144,8 +148,7 @@ def identified_beside(model: Path) -> Identified | None:
     Raises:
         InputError: it is none.
     """
-    beside = model.parent / FILE
-    return load_identified(beside) if beside.is_file() else None
+    return load_identified(model.parent / FILE) if (model.parent / FILE).is_file() else None
 
 
 def drivers_of(model: FittedModel) -> set[str]:

@@ -27,7 +27,7 @@ from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stated
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
-from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects
+from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects, told_as_scatter
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     load_in_question,
@@ -37,6 +37,7 @@ from armscope.diagnosis.summary.unexplained import (
     too_faint,
     unexplained_part,
 )
+from armscope.diagnosis.summary.untold_sides import columns_of_untold, untold_plays
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.discrepancy import model_error
 from armscope.fitting.refit import Refit
@@ -80,15 +81,18 @@ def judge(
     basis = _basis(state, resamples, rng)
     variance = basis.equations.least_rss(fit.layout.frames) / max(basis.equations.n, 1.0)
     found, of_families = _summarised(basis)
-    order = sorted(found, key=lambda c: -found[c].share)
-    held_out, waterfall = _validated(state, order, progress) if cross_validation else (UNTESTED, ())
+    untold = untold_plays(state)
+    order = [c for c in sorted(found, key=lambda c: -found[c].share) if c not in untold]
+    held_out, waterfall = _validated(state, untold, order, progress) if cross_validation else (UNTESTED, ())
     progress("drawing the atlas", 0.9)
     background = background_summaries(state, basis.search, basis.equations, of_families)
     masses, weights_told = masses_in_error(state, basis.equations, of_families[-1])
     named = [with_weight(found[c], background) for c in order]
     background = (*background, *masses)
-    left = max(1.0 - sum(effect.share for effect in named) - sum(family.share for family in background), 0.0)
-    scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, named)]
+    left = max(1.0 - sum(effect.share for effect in found.values()) - sum(family.share for family in background), 0.0)
+    by_order = [told_as_scatter(found[c], state.fit.model.arm.n_motors) for c in untold]
+    scattered = [s for s in scattered_effects(state, variance, left) if not rest_of_a_curve(s, [*named, *by_order])]
+    scattered += by_order
     over, candidate = subset_consistency(state), basis.search.candidate
     named = [as_far_as_it_carries(e, candidate(c), over.get(c)) for c, e in zip(order, named, strict=True)]
     effects = tuple(sorted([*named, *scattered], key=lambda effect: -effect.share))
@@ -146,12 +150,18 @@ def _summarised(basis: SummaryBasis) -> tuple[dict[int, FoundEffect], list[float
 
 
 def _validated(
-    state: DiagnosisState, order: Sequence[int], progress: Progress
+    state: DiagnosisState, untold: Sequence[int], order: Sequence[int], progress: Progress
 ) -> tuple[HeldOut, tuple[WaterfallStep, ...]]:
-    """Errors on held-out rows, and the waterfall in the order of the shares."""
+    """Errors on held-out rows, and the waterfall in the order of the shares.
+
+    Play of which nobody wrote down the side is fitted beside all else from the first step on, and foretells nothing.
+    """
     progress("validating on held-out rows", 0.75)
-    rows = LinearisedRows(state.point, state.table, state.fit.weights, state.space.layout)
-    return cross_validate(state.problem, state.blocks, state.split, state.best, order, rows)
+    rows = LinearisedRows(state.point, state.table, state.fit.weights, state.space.layout, columns_of_untold(state))
+    told, (nothing, *steps) = cross_validate(
+        state.problem, state.blocks, state.split, state.best, [*untold, *order], rows
+    )
+    return told, (nothing, *steps[len(untold) :])
 
 
 def _noise_source(state: DiagnosisState, with_rounding: bool) -> str:

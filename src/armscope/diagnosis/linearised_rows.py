@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,12 +30,14 @@ class LinearisedRows:
         table: the rows, with what is already known of them.
         weights: of the fit.
         layout: of the columns.
+        untold: columns that were fitted, but foretell nothing of other rows: readings are judged without them.
     """
 
     point: FittedModel
     table: LinearisedTable
     weights: RowWeights
     layout: ParameterLayout
+    untold: Indices = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     def some(self, which: Indices) -> LinearisedRows:
         """Some of the rows."""
@@ -86,6 +88,8 @@ class LinearisedRows:
         """
         values = values if number is not None else values[None]
         number = np.zeros(len(self.recordings), dtype=np.intp) if number is None else number
+        values = values.copy()
+        values[:, :, self.untold] = 0.0
         column_order, current = self.layout.column_order, current_parameters(self.layout, self.point)
         added = (values - current)[:, :, column_order.order]
         left = np.empty((values.shape[1], len(self.recordings), self.width))

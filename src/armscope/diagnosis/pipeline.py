@@ -17,7 +17,7 @@ from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.gravity_direction import estimate_gravity_direction
 from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.judgement import judge
-from armscope.diagnosis.selection import select
+from armscope.diagnosis.play_by_order import select_with_sides
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.undecided import undecided
 from armscope.fitting.constants import STEPS
@@ -114,10 +114,10 @@ def diagnose(
         start, notices = replace(start, arm=arm), (*notices, *told)
     rng = np.random.default_rng(settings.seed)
     split = split_rows(table, rng)
-    found = select(start, rows, noise, frames, split.of_row, progress)
+    found = select_with_sides(start, rows, noise, frames, split.of_row, progress)
     state = DiagnosisState(
-        **vars(found), start=start, recordings=table, first=first, noise=noise, notices=notices, split=split,
-        floor=settings.floor,
+        **vars(found), start=start, recordings=found.table.recordings, first=first, noise=noise, notices=notices,
+        split=split, floor=settings.floor,
     )  # fmt: skip
     verdict = judge(state, settings.resamples, settings.cross_validation, rng, progress)
     progress("done", 1.0)

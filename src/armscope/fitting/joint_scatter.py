@@ -117,6 +117,24 @@ def find_rounding(residuals: Array, moved: Array, steps: Array, least_noise: flo
     return [*(replace(each, evidence=gain / len(rounded)) for each in rounded), *beside]
 
 
+def log_likelihood(residuals: Array, moved: Array, found: Sequence[Scattered], least_noise: float) -> float:
+    """How probable residuals are with some scatter, nats: of two models of the same rows the better one has more.
+
+    Every row counts: those that fit nothing are strays, which are improbable.
+
+    Args:
+        residuals: (N, 3) mm, base axes.
+        moved: (m, N, 3) from `motor_jacobians`.
+        found: what scatters.
+        least_noise: mm.
+
+    Returns:
+        Nats.
+    """
+    rho = _in_units_of(noise_between(residuals, moved, found, least_noise), found)
+    return _likelihood(residuals, moved, rho, least_noise)[0]
+
+
 def _evidence(found: Sequence[Scattered]) -> float:
     return sum(each.evidence for each in found)
 

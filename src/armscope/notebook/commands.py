@@ -271,7 +271,7 @@ def _identified(model: Model) -> Identified | None:
         return identified_beside(Path(model))
     if not isinstance(model, Diagnosed):
         return None
-    return identified_on(model.model.arm, model.recordings, model.held_out.after)
+    return model.identified()
 
 
 def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.compensation.physical import FILE, identified_on, save_identified
+from armscope.compensation.physical import FILE, Identified, identified_on, save_identified
 from armscope.compensation.predicting import predict_rows
 from armscope.core.inputs import DATA_FRAME
 from armscope.core.outputs import Delivery
@@ -21,6 +21,7 @@ from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict
+from armscope.verdict.promise import promised
 from armscope.verdict.wording import millimetres, percent
 
 
@@ -38,7 +39,7 @@ class Diagnosed(Diagnosis):
 
     def _left(self) -> str:
         """RMS without and with the model, on rows that took no part where that was tried."""
-        held, tried = self.held_out, math.isfinite(self.held_out.after)
+        held, tried = promised(self), math.isfinite(self.held_out.after)
         before, after = (held.before, held.after) if tried else (self.residual_before_mm, self.residual_after_mm)
         return (
             f"{'held out' if tried else 'on the fitted rows'} {millimetres(before)} before, {millimetres(after)} after"
@@ -48,6 +49,10 @@ class Diagnosed(Diagnosis):
         cells = [(e.title, percent(e.share), millimetres(e.rms_at_tool_mm), e.cure) for e in self.effects]
         about = f"{self.arm}, {self.rows} rows; {self._left()}; noise {millimetres(self.noise_mm)} per axis"
         return paragraphs(self.headline, about) + table(("cause", "share", "RMS per axis", "cure"), cells)
+
+    def identified(self) -> Identified:
+        """Where the model holds, and how well it foretells there."""
+        return identified_on(self.model.arm, self.recordings, *promised(self).foretold)
 
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose -o folder` writes.
@@ -66,7 +71,7 @@ class Diagnosed(Diagnosis):
         delivery = Delivery("diagnose", [], [folder], force)
         with delivery.running():
             write_verdict(self, folder)
-            save_identified(folder / FILE, identified_on(self.model.arm, self.recordings))
+            save_identified(folder / FILE, self.identified())
             write_report(self, folder)
             delivery.put()
         return folder / "report.html"
@@ -95,4 +100,4 @@ class Diagnosed(Diagnosis):
         if isinstance(poses, pd.DataFrame):
             poses = as_recordings(poses, DATA_FRAME, motors, measured=False)
         rows = poses if isinstance(poses, Recordings) else read_recordings(poses, motors, measured=False)
-        return with_notes(predict_rows(self.model, rows, identified_on(self.model.arm, self.recordings)))
+        return with_notes(predict_rows(self.model, rows, self.identified()))

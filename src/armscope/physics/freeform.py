@@ -149,7 +149,9 @@ def _load(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 
 def _lost_motion(recordings: Recordings) -> Iterator[Placed]:
-    """Play that is not the same at all angles."""
+    """Play that is not the same at all angles; sides that the order of rows alone tells are asked for plain play."""
+    if recordings.sides_by_order:
+        return
     moving = set(moving_joints(recordings))
     for j in varying_columns(recordings.approach, 0.5):
         if j in moving:

@@ -19,12 +19,40 @@ def last_moves(recordings: Recordings) -> Array:
     Returns:
         (N, m) rad; NaN for the first row of a run.
     """
-    clock = recordings.number if recordings.time is None else recordings.time
-    order = np.lexsort((clock, recordings.run))
+    order = np.lexsort((_clock(recordings), recordings.run))
     moved = np.full(recordings.motor_angles.shape, np.nan)
     moved[order[1:]] = np.diff(recordings.motor_angles[order], axis=0)
     moved[order[np.concatenate([[True], recordings.run[order][1:] != recordings.run[order][:-1]])]] = np.nan
     return moved
+
+
+def sides_of_last_moves(recordings: Recordings, kept: bool = False) -> Array:
+    """From which side each motor came to each row, if rows were measured in the order of their time or number.
+
+    Args:
+        recordings: N rows, in any order.
+        kept: whether a motor that stood still from one row to the next still rests on the side that it came from
+            before, as gears under load do; else it is on none, as one that relaxes is.
+
+    Returns:
+        (N, m) sign of the motor's motion from the row before in the same run, 0 for none; NaN where no row tells: for
+        the first of a run, and where a side is kept, for all before the motor's first motion.
+    """
+    moves = last_moves(recordings)
+    if not kept:
+        return np.sign(moves)
+    order = np.lexsort((_clock(recordings), recordings.run))
+    runs = recordings.run[order]
+    first = np.concatenate([[True], runs[1:] != runs[:-1]])
+    moved = (np.abs(moves[order]) > READING.still_rad) | first[:, None]
+    last = np.maximum.accumulate(np.where(moved, np.arange(len(order))[:, None], 0), axis=0)
+    sides = np.empty_like(moves)
+    sides[order] = np.sign(np.take_along_axis(moves[order], last, axis=0))
+    return sides
+
+
+def _clock(recordings: Recordings) -> Array:
+    return recordings.number if recordings.time is None else recordings.time
 
 
 def moving(angles: Array) -> NDArray[np.bool_]:

@@ -35,6 +35,8 @@ class Recordings(InWords):
         orientation: (N, 4) unit quaternions (w, x, y, z), measurement frame from tool frame, or None.
         time: (N,) s; temperature: (N,) deg C; payload: (N,) kg at the tool point; each or None.
         approach: (N, m) -1 or +1, sign of each motor's last motion, or None.
+        sides_by_order: whether nobody recorded ``approach``: it is what the order of the rows tells, if they were
+            measured in it.
         speed: (N, m) rad/s; torque: (N, m) N m; each or None.
         sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
         number: (N,) of each row in the order of the table as it was read: its id where ids are numbers that rise in
@@ -62,6 +64,7 @@ class Recordings(InWords):
     extra: pd.DataFrame | None = None
     notes: tuple[str, ...] = ()
     source: str = ""
+    sides_by_order: bool = False
 
     def __post_init__(self) -> None:
         if len(self.number) != len(self):

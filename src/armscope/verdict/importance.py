@@ -25,6 +25,7 @@ from armscope.verdict.contributions import Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.promise import promised
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.sentences import cause_in_words, headline
 
@@ -117,7 +118,8 @@ def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:
     """What RMS to expect on poses that took no part, where one on the recorded rows is known.
 
     A fit is a little better on its own rows. Both ends are known, the nominal arm's and the whole model's, from
-    cross-validation; between them squared errors are taken to go straight.
+    cross-validation; between them squared errors are taken to go straight. Where many rows fit nothing, both are those
+    of all rows: an order that told the others' error promised 0.08 mm of play, and 0.4 mm were got.
 
     Args:
         verdict: the diagnosis.
@@ -128,8 +130,9 @@ def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:
         RMS per axis, mm; the same where nothing was held out.
     """
     fitted = rms(worth.before) ** 2, rms(worth.left) ** 2
-    held = verdict.held_out.before**2, verdict.held_out.after**2
-    if not (np.isfinite(held).all() and fitted[0] > fitted[1] and held[0] > held[1]):
+    promise = promised(verdict)
+    held = promise.before**2, promise.after**2
+    if not (np.isfinite(held).all() and fitted[0] > fitted[1] and (held[0] > held[1] or promise.of_all)):
         return mm
     slope = (held[0] - held[1]) / (fitted[0] - fitted[1])
     return float(np.sqrt(max(held[1] + slope * (mm**2 - fitted[1]), 0.0)))

@@ -12,7 +12,8 @@ from armscope.verdict.constants import WORDS
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
-from armscope.verdict.schema import ANOTHER_MODEL, ROWS_LEFT_OUT, Background, Verdict
+from armscope.verdict.promise import promised
+from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
 from armscope.verdict.wording import (
     BESIDE,
     GROWS,
@@ -142,7 +143,8 @@ def holds(verdict: Verdict) -> bool:
 
 def makes_worse(verdict: Verdict) -> bool:
     """Whether such rows are clearly worse with the model."""
-    return verdict.held_out.after > WORDS.clearly_worse * verdict.held_out.before
+    promise = promised(verdict)
+    return promise.after > WORDS.clearly_worse * promise.before
 
 
 def background_in_words(verdict: Verdict) -> str:
@@ -207,14 +209,14 @@ def _unsure(verdict: Diagnosis) -> Iterator[str]:
 def _remainder(verdict: Diagnosis) -> str:
     """What the model leaves, and whether many rows are not met at all."""
     return _left(verdict) + ", and many rows fit none of it" * (
-        ROWS_LEFT_OUT in {each.kind for each in verdict.notices}
+        any(each.kind in (ROWS_LEFT_OUT, NO_BAD_SHOTS) for each in verdict.notices)
     )
 
 
 def _left(verdict: Diagnosis) -> str:
     """What the model leaves of the rows that it fits."""
     if makes_worse(verdict):
-        before, after = millimetres(verdict.held_out.before), millimetres(verdict.held_out.after)
+        before, after = millimetres(promised(verdict).before), millimetres(promised(verdict).after)
         return f"but rows that took no part in the fit get worse by it, from {before} to {after}: do not act on it yet"
     if more_than_noise(verdict):
         return still_open(verdict)

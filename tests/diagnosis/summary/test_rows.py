@@ -18,7 +18,7 @@ from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.schema import HeldOut
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut
 from tests.diagnosis.planted import one_run, recorded
 from tests.physics.scenes import arm_named
 
@@ -107,3 +107,12 @@ def test_what_many_rows_that_fit_nothing_make_of_the_promise_is_told(out: int, w
         assert "12 of 100 rows fit none of this" in found[0].text
         assert "0.3 mm, not 0.05 mm" in found[0].text
         assert "play whose side was not recorded" in found[0].text
+
+
+@pytest.mark.parametrize(("out", "kind"), [(8, ROWS_LEFT_OUT), (18, NO_BAD_SHOTS)])
+def test_a_tenth_of_the_rows_may_be_bad_shots_and_a_fifth_is_in_the_promise(out: int, kind: str) -> None:
+    weight = np.r_[np.zeros(out), np.ones(100 - out)]
+    fit = SimpleNamespace(weights=SimpleNamespace(robust_weight=weight))
+    table = replace(one_run(arm_named("six-axis"), 100, 1), approach=None)
+    (notice,) = rows.rows_left_out(SimpleNamespace(fit=fit, recordings=table), HeldOut(0.4, 0.05, after_all_rows=0.3))
+    assert notice.kind == kind

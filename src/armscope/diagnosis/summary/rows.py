@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 from armscope.core.location import Location
+from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.diagnosis.summary.untold_sides import as_recorded, left_without_untold, of_unknown_side, without_untold
 from armscope.fitting.refit import Refit
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import GEOMETRIC
@@ -21,7 +23,7 @@ from armscope.physics.model import FittedModel
 from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Residuals
-from armscope.verdict.schema import ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
 from armscope.verdict.wording import millimetres
 
 
@@ -34,33 +36,33 @@ def told_of_rows(state: DiagnosisState) -> dict[str, Any]:
     Returns:
         Fields of the `Diagnosis` by name.
     """
-    fit, recordings = state.fit, state.recordings
+    fit, recordings, left = state.fit, state.recordings, left_without_untold(state)
     return {
         "arm": fit.model.arm.name,
         "source": recordings.source,
-        "recordings": recordings,
+        "recordings": as_recorded(recordings),
         "rows": len(recordings),
         "runs": tuple(str(run) for run in np.unique(recordings.run)),
-        "residual_after_mm": _weighted_rms(fit),
+        "residual_after_mm": _weighted_rms(fit, left),
         "atlas": atlas(fit.layout, fit.model, recordings, fit.weights.of_reference),
-        "residuals": _residuals(state),
+        "residuals": _residuals(state, left),
         "suspects": _suspects(state),
-        "model": _to_predict(fit.model, recordings),
+        "model": _to_predict(without_untold(state), recordings),
         "orientations": _orientations(state),
     }
 
 
-def _weighted_rms(fit: Refit) -> float:
+def _weighted_rms(fit: Refit, left: Array) -> float:
     trusted = fit.weights.robust_weight > WEIGHTS.inlier_weight
-    return float(np.sqrt(np.mean(fit.residuals[trusted] ** 2)))
+    return float(np.sqrt(np.mean(left[trusted] ** 2)))
 
 
-def _residuals(state: DiagnosisState) -> Residuals:
+def _residuals(state: DiagnosisState, left: Array) -> Residuals:
     table, fit = state.recordings, state.fit
     return Residuals(
         points=fit.model.to_base(table.positions, table.run) * 1e3,
         before=state.first.points_mm,
-        after=fit.residuals,
+        after=left,
         weight=fit.weights.robust_weight,
         id=table.id,
         run=table.run,
@@ -90,7 +92,7 @@ def _misread_rms(model: FittedModel, rows: Recordings) -> float:
 
 
 def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
-    """That what is promised holds without rows that look like bad shots, where they are many and make a difference.
+    """That rows that look like bad shots are many and make a difference; where too many, what is promised is with them.
 
     Args:
         state: the finished selection.
@@ -109,13 +111,13 @@ def rows_left_out(state: DiagnosisState, held_out: HeldOut) -> list[Notice]:
         f"{millimetres(with_them)}, not {millimetres(after)}. So many are seldom bad shots{side}. Measure some of them "
         "again before anything is changed."
     )
-    return [Notice(ROWS_LEFT_OUT, text)]
+    return [Notice(NO_BAD_SHOTS if out > TELLING.most_bad_shots * rows else ROWS_LEFT_OUT, text)]
 
 
 def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     fit, table = state.fit, state.recordings
     relative = fit.weights.robust_weight
-    rows = np.flatnonzero(relative < WEIGHTS.inlier_weight)
+    rows = np.flatnonzero((relative < WEIGHTS.inlier_weight) & ~of_unknown_side(state))
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
     return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)

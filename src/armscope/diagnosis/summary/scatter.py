@@ -7,15 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.gaps import Gap, gaps
 from armscope.fitting.joint_scatter import motor_jacobians
-from armscope.physics.transmission import BACKLASH
-from armscope.recordings import Recordings
-from armscope.recordings.motion import last_moves
+from armscope.recordings import Recordings, motion
 from armscope.verdict.effects import FoundEffect, Parameter
 
 NOTHING = "nothing in the table"
@@ -44,32 +41,59 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
     together = sum(rms**2 for rms in sizes)
     plays = _plays(state, [each.motor for each in at_fault])
     for scattered, rms in zip(at_fault, sizes, strict=True):
-        location, lever = f"joint {scattered.motor}", moved[scattered.motor - 1]
+        location, stderr = f"joint {scattered.motor}", scattered.size / np.sqrt(2 * moved.shape[1])
         play = plays.get(scattered.motor)
-        yield FoundEffect(
-            effect="unknown",
-            location=location,
-            family="unknown",
-            driver=NOTHING,
-            named_as="effect",
-            title=f"scatter at {location} that follows nothing in the table" + (" but its order" if play else ""),
-            minor=False,
-            parameters=(
-                Parameter("scatter", "rad", scattered.size, scattered.size / np.sqrt(2 * len(lever))),
-                *([] if play is None else [play]),
-            ),
-            rms_at_tool_mm=rms,
-            share=rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0,
-            evidence_nats=scattered.evidence,
-            alternatives=(),
-            inclusion=None,
-            curve=None,
-            physics=REASONLESS if play is None else f"{REASONLESS} {_by_order(play)}",
-            confirm=_CONFIRM
-            if play is None
-            else f"Measure one pose many times, coming to it from both sides of {location}.",
-            cure=_cure(play, len(moved)),
-        )
+        found = _told(location, Parameter("scatter", "rad", scattered.size, stderr), play)
+        share = rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0
+        cure = _cure(play, len(moved))
+        yield replace(found, rms_at_tool_mm=rms, share=share, evidence_nats=scattered.evidence, cure=cure)
+
+
+def told_as_scatter(found: FoundEffect, motors: int) -> FoundEffect:
+    """Play by the order of rows alone: the joint scatters, until somebody writes down the side from which it came.
+
+    Args:
+        found: play whose side of approach the order of rows tells.
+        motors: of the arm.
+
+    Returns:
+        The scatter, as large as that play makes it.
+    """
+    (gap,) = [each for each in found.parameters if each.name == "gap"]
+    play = play_of(Gap(gap.value, gap.stderr))
+    told = _told(found.location, Parameter("scatter", "rad", play.value / 2, play.stderr / 2), play)
+    return replace(
+        told,
+        rms_at_tool_mm=found.rms_at_tool_mm,
+        share=found.share,
+        evidence_nats=found.evidence_nats,
+        cure=_cure(play, motors),
+    )
+
+
+def _told(location: str, scatter: Parameter, play: Parameter | None) -> FoundEffect:
+    """Scatter of a joint, and the play that it is by the order of rows; neither weighed nor with a cure yet."""
+    return FoundEffect(
+        effect="unknown",
+        location=location,
+        family="unknown",
+        driver=NOTHING,
+        named_as="effect",
+        title=f"scatter at {location} that follows nothing in the table" + (" but its order" if play else ""),
+        minor=False,
+        parameters=(scatter, *([] if play is None else [play])),
+        rms_at_tool_mm=0.0,
+        share=0.0,
+        evidence_nats=0.0,
+        alternatives=(),
+        inclusion=None,
+        curve=None,
+        physics=REASONLESS if play is None else f"{REASONLESS} {_by_order(play)}",
+        confirm=_CONFIRM
+        if play is None
+        else f"Measure one pose many times, coming to it from both sides of {location}.",
+        cure="",
+    )
 
 
 def _cure(play: Parameter | None, motors: int) -> str:
@@ -82,8 +106,9 @@ def _cure(play: Parameter | None, motors: int) -> str:
             "Until then change nothing."
         )
     return (
-        f"Write the side from which every joint came into columns approach1 ... approach{motors} (-1 or +1, 0 where it "
-        "did not move) and diagnose again: play then gets its name, and can be compensated. Until then change nothing."
+        f"Write the side from which every joint came into columns approach1 ... approach{motors} (-1 or +1, the way "
+        "it last moved; 0 where that is not known) and diagnose again: play then gets its name, and can be compensated."
+        " Until then change nothing."
     )
 
 
@@ -107,38 +132,23 @@ def sides_by_order(recordings: Recordings, motor: int) -> Array:
     Returns:
         (N,) sign of the motor's motion from the row before in the same run; 0 for the first of a run.
     """
-    return np.sign(np.nan_to_num(last_moves(recordings)[:, motor - 1]))
+    return np.nan_to_num(motion.sides_of_last_moves(recordings)[:, motor - 1])
 
 
 def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]:
-    """By how much motors stand apart after motion to either side, where the order of rows shows it clearly.
-
-    Play leaves a joint behind its motor. One that stands ahead of its reading went on after it was read.
-
-    Each is fitted with all else, of which what follows the angle follows the side a little, too; and without the
-    others, for all of which the rows are summed up once.
-    """
+    """By how much motors stand apart after motion to either side, where the order of rows shows it clearly."""
     if state.recordings.approach is not None or not motors:
         return {}
-    fit, sides = state.fit, np.zeros(state.recordings.motor_angles.shape)
+    sides = np.zeros(state.recordings.motor_angles.shape)
     for motor in motors:
         sides[:, motor - 1] = sides_by_order(state.recordings, motor)
-    table = replace(state.recordings, approach=sides)
-    gaps = [placed for placed in BACKLASH.place(fit.model.arm, table) if placed.variant == "approach"]
-    if not gaps:
-        return {}
-    terms = [*fit.layout.terms, *(term for gap in gaps for term in gap.terms)]
-    layout = replace(fit.layout, terms=tuple(terms))
-    (sums,) = normal_equations_by_block(layout, fit.model, table, fit.weights, np.zeros(len(table), dtype=np.intp))
-    ridge, plays = np.diag(np.append(fit.noise**2 * fit.precision, 0.0)), {}
-    for number, gap in enumerate(gaps, len(fit.precision)):
-        at = np.append(np.arange(len(fit.precision)), number)
-        inverse = np.linalg.inv(sums.G[np.ix_(at, at)] + ridge)
-        size, stderr = float(inverse[-1] @ sums.b[at]), fit.noise * float(np.sqrt(inverse[-1, -1]))
-        if abs(size) > TELLING.play_by_order * stderr:
-            name = "play" if size > 0 else OVERRUN
-            plays[Location.of(gap.location).index + 1] = Parameter(name, "rad", abs(size), stderr)
-    return plays
+    found = gaps(state.fit, replace(state.recordings, approach=sides), state.fit.weights, state.fit.noise)
+    return {motor: play_of(gap) for motor, gap in found.items() if gap.clearly > TELLING.play_by_order}
+
+
+def play_of(gap: Gap) -> Parameter:
+    """Play leaves a joint behind its motor. One that stands ahead of its reading went on after it was read."""
+    return Parameter("play" if gap.size > 0 else OVERRUN, "rad", abs(gap.size), gap.stderr)
 
 
 def _by_order(play: Parameter) -> str:

@@ -36,7 +36,8 @@ from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.payload_place import of_payloads
-from armscope.verdict.schema import ROWS_LEFT_OUT, Notice
+from armscope.verdict.promise import promised
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
@@ -49,7 +50,7 @@ ANSWERS = {
 }
 WARNINGS = (
     "check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible",
-    "load in question", ROWS_LEFT_OUT,
+    "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = (
@@ -194,10 +195,12 @@ def _noise(verdict: Diagnosis) -> str:
 
 def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     """(number, what it is, details) for the strip under the headline."""
-    held_out = math.isfinite(verdict.held_out.before) and math.isfinite(verdict.held_out.after)
-    before = verdict.held_out.before if held_out else verdict.residual_before_mm
-    after = verdict.held_out.after if held_out else verdict.residual_after_mm
+    promise = promised(verdict)
+    held_out = math.isfinite(promise.before) and math.isfinite(promise.after)
+    before = promise.before if held_out else verdict.residual_before_mm
+    after = promise.after if held_out else verdict.residual_after_mm
     where = "RMS per axis on held-out rows" if held_out else "RMS per axis on the fitted rows (no held-out rows)"
+    where += ", with those that fit nothing" * promise.of_all
     runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
     known = math.isfinite(verdict.noise_mm)
     tiles = [

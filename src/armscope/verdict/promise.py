@@ -1,0 +1,42 @@
+"""What error may be promised on other poses: that of rows that fit nothing, too, where these are no bad shots."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from armscope.verdict.schema import NO_BAD_SHOTS, Verdict
+
+
+@dataclass(frozen=True)
+class Promise:
+    """RMS per axis on rows that took no part, mm; NaN where nothing was held out.
+
+    Attributes:
+        before: with the frames only.
+        after: with the model.
+        of_all: whether rows that fit nothing are among them: so many are seldom bad shots, and an arm that is told to
+            miss as little as all others do will miss by theirs, too.
+    """
+
+    before: float
+    after: float
+    of_all: bool
+
+    @property
+    def foretold(self) -> tuple[float, bool]:
+        """`after`, and whether it is that of all rows."""
+        return self.after, self.of_all
+
+
+def promised(verdict: Verdict) -> Promise:
+    """The held-out error of a verdict's well-fitting rows, or of all where those that don't are too many for bad shots.
+
+    Bad shots are the instrument's: the arm does not miss by them.
+    """
+    held = verdict.held_out
+    many = any(notice.kind == NO_BAD_SHOTS for notice in verdict.notices)
+    if many and np.isfinite(held.before_all_rows) and np.isfinite(held.after_all_rows):
+        return Promise(held.before_all_rows, held.after_all_rows, True)
+    return Promise(held.before, held.after, False)
