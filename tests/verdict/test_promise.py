@@ -10,8 +10,8 @@ import pytest
 from armscope.core.averages import rms
 from armscope.verdict.contributions import contributions
 from armscope.verdict.importance import expected
-from armscope.verdict.promise import promised
-from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice
+from armscope.verdict.promise import promised, rows_it_rests_on
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice, SuspectRow
 from armscope.verdict.sentences import headline, makes_worse
 
 from ..report import verdicts
@@ -49,3 +49,14 @@ def test_a_model_by_which_all_rows_get_worse_is_told_so():
     worse = replace(verdict, held_out=replace(SEEN, after_all_rows=0.5))
     assert makes_worse(worse)
     assert "get worse by it, from 0.376 mm to 0.5 mm" in headline(worse).replace("\u00a0", " ")
+
+
+def test_a_bad_shot_is_no_row_that_a_model_rests_on():
+    """Seen: one row at the largest load of all counted for nothing, and commands were given up to there."""
+    verdict = verdicts.case(effects=(verdicts.compliance(),), held_out=SEEN).verdict
+    table = verdict.recordings
+    bad = SuspectRow(str(table.id[3]), str(table.run[3]), 1.3, 0.1)
+    rests = rows_it_rests_on(replace(verdict, suspects=(bad,)))
+    assert rests.id.tolist() == [each for n, each in enumerate(table.id.tolist()) if n != 3]
+    assert len(rows_it_rests_on(replace(verdict, suspects=()))) == len(table)
+    assert len(rows_it_rests_on(replace(verdict, suspects=(bad,), notices=MANY))) == len(table), "no bad shots then"

@@ -124,14 +124,14 @@ def diagnose(
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.verdict.promise import promised
+    from armscope.verdict.promise import promised, rows_it_rests_on
 
     writable(output, DOMAIN)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation, floor_mm)
     with _progress("diagnosing") as tell:
         verdict = diagnose_arm(arm, table, settings, tell)
         write_verdict(verdict, output)
-        used = identified_on(verdict.model.arm, verdict.recordings, *promised(verdict).foretold)
+        used = identified_on(verdict.model.arm, rows_it_rests_on(verdict), *promised(verdict).foretold)
         save_identified(output / DOMAIN, used)
         if report:
             from armscope.report.pages.diagnosis import write_report

@@ -21,7 +21,7 @@ from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict
-from armscope.verdict.promise import promised
+from armscope.verdict.promise import promised, rows_it_rests_on
 from armscope.verdict.wording import millimetres, percent
 
 
@@ -52,7 +52,7 @@ class Diagnosed(Diagnosis):
 
     def identified(self) -> Identified:
         """Where the model holds, and how well it foretells there."""
-        return identified_on(self.model.arm, self.recordings, *promised(self).foretold)
+        return identified_on(self.model.arm, rows_it_rests_on(self), *promised(self).foretold)
 
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose -o folder` writes.

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from armscope.recordings import Recordings
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.schema import NO_BAD_SHOTS, Verdict
 
 
@@ -40,3 +42,16 @@ def promised(verdict: Verdict) -> Promise:
     if many and np.isfinite(held.before_all_rows) and np.isfinite(held.after_all_rows):
         return Promise(held.before_all_rows, held.after_all_rows, True)
     return Promise(held.before, held.after, False)
+
+
+def rows_it_rests_on(verdict: Diagnosis) -> Recordings:
+    """The rows that a verdict's model was learned from: all but bad shots, beyond which it was never tried.
+
+    A single shot far out would else widen the range in which commands are given, though it counted for nothing.
+    """
+    table = verdict.recordings
+    if promised(verdict).of_all:
+        return table
+    bad = {(row.run, row.id) for row in verdict.suspects}
+    kept = [(str(run), str(row)) not in bad for run, row in zip(table.run, table.id, strict=True)]
+    return table.rows(np.flatnonzero(kept))
