@@ -22,8 +22,10 @@ from armscope.compensation.result import Compensated
 from armscope.compensation.task import Options, PathTask, refuse
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.physics.loose_target import HOLDER_SAG, LOOSE_TARGET
 from armscope.physics.model import FittedModel
+from armscope.physics.payload_change import PAYLOAD_CHANGE, carrying_as_stated
 from armscope.recordings import Recordings
 
 
@@ -101,7 +103,8 @@ def compensate_physical(
         rule = f"the model is of {model.arm.name!r}"
         raise InputError("domain", "robot", identified.arm, rule, "These files do not belong together.")
     measured = options.frame == "measurement"
-    model = model if measured else model.in_its_own_base()
+    untold = _of_untold_loads(model)
+    model = carrying_as_stated(model if measured else model.in_its_own_base())
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         refuse(refused, missing, f"no {column}, which the model follows")
@@ -127,6 +130,7 @@ def compensate_physical(
     result = task.run(refused)
     said = (
         *notes,
+        *untold,
         *result.notes,
         *_resting_on_the_tool(model, options),
         *_of_the_target(model),
@@ -149,6 +153,14 @@ def _resting_on_the_tool(model: FittedModel, options: Options) -> tuple[str, ...
             "orientations are right but for one turn about the flange's axes, the same at all points"
         )
     return tuple(notes)
+
+
+def _of_untold_loads(model: FittedModel) -> tuple[str, ...]:
+    """Loads that recorded runs carried and nobody stated are not in the commands: the arm may have put them down."""
+    loads = [part for part in model.parts if part.placed.effect is PAYLOAD_CHANGE]
+    told = enumerated([f"{float(part.values[0]):+.3g} kg {part.placed.variant}" for part in loads])
+    stated = "these commands are for what payload_kg states (state those loads, and diagnose again, to carry them)"
+    return (f"some recorded runs carried more than stated, {told}: {stated}",) if loads else ()
 
 
 def _of_the_target(model: FittedModel) -> tuple[str, ...]:

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
 from armscope.physics.drift import when
 from armscope.physics.effect import Cure, Driver, Effect, Part, Placed, Product, Term
+from armscope.physics.model import FittedModel
 from armscope.physics.payload import what_bears
 from armscope.physics.placing import nowhere
 from armscope.physics.set_ups import in_order_of_time
@@ -40,6 +42,11 @@ def _carried(loaded: Sequence[Product], runs: Sequence[str], told: str) -> Place
     through = tuple(Product(g.direction, Driver("heavier during run", (g.driver, *runs)), g.factor) for g in loaded)
     mass = Term("mass", "kg", 1.0, through, math.inf)
     return Placed(PAYLOAD_CHANGE, "payload", (mass,), (1.0,), told, variant=told)
+
+
+def carrying_as_stated(model: FittedModel) -> FittedModel:
+    """A model without the loads that recorded runs carried unsaid: what an arm will carry is what is stated then."""
+    return replace(model, parts=tuple(part for part in model.parts if part.placed.effect is not PAYLOAD_CHANGE))
 
 
 def _changed(told: Told) -> str:
