@@ -1,4 +1,4 @@
-"""Thermal effects: links that grow, or bow, with temperature; as stated they are at 20 C."""
+"""Thermal effects: links that grow or bow with temperature, and zeros that move; as stated they are at 20 C."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from armscope.physics.clause import below_zero, clear_ones
 from armscope.physics.constants import FORM, PLAUSIBLE
-from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, term
-from armscope.physics.placing import varies
+from armscope.physics.cure import command
+from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, motor, term
+from armscope.physics.placing import moving_joints, varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -119,4 +120,43 @@ THERMAL_BOW = Effect(
     needs=("temperature_c",),
 )
 
-EFFECTS = [THERMAL_EXPANSION, THERMAL_BOW]
+
+RIGHT_ELSEWHERE = "right at another temperature"
+"""The variant of a zero that moves and was not set at 20 C: joints are calibrated when somebody comes by."""
+
+
+def _place_zeros(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
+    if not varies(recordings.temperature, FORM.least_span_k):
+        return
+    for j in moving_joints(recordings):
+        drift = term("drift", "rad/K", (motor(j), WARMTH), plausible=PLAUSIBLE.bow_rad_per_k)
+        yield Placed(THERMAL_ZERO, f"joint {j}", (drift,), (1.0,), "temperature")
+        offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
+        both = (drift, offset)
+        yield Placed(THERMAL_ZERO, f"joint {j}", both, (1.0, 1.0), "temperature", variant=RIGHT_ELSEWHERE)
+
+
+THERMAL_ZERO = Effect(
+    "thermal_zero",
+    "thermal",
+    _place_zeros,
+    "The joint's zero moves as it gets warmer: what holds its encoder, its gear or its belt grows.",
+    "Bring the joint to its calibration mark cold and warm, with a thermometer on its housing.",
+    command(
+        "Warm up before measuring,",
+        otherwise="or compensate for it in the command: commanded = wanted - drift x (temperature - 20 C) - offset "
+        "(none where none is told).",
+        change="temperature",
+        instruction="Warm the arm up before work, or {correction}.",
+    ),
+    clauses=(
+        "the zero of {location} moves by {drift:+}, and is off by {offset:+} at 20 °C",
+        "the zero of {location} moves by {drift:+}",
+    ),
+    labels={"drift": "zero moves by", "offset": "zero is off at 20 °C by"},
+    atlas="temperature",
+    needs=("temperature_c",),
+    contained_in=("temperature",),
+)
+
+EFFECTS = [THERMAL_EXPANSION, THERMAL_BOW, THERMAL_ZERO]
