@@ -123,6 +123,22 @@ def test_what_is_less_likely_than_nothing_is_no_rival() -> None:
     assert alternatives(Search.on(problem), best)[0] == []
 
 
+@pytest.mark.parametrize(("columns", "listed"), [((1, 2), False), ((2,), True)])
+def test_an_effect_and_something_beside_is_no_rival_of_it(columns: tuple[int, ...], listed: bool) -> None:
+    """A zero that moves with temperature and is off at 20 degrees is a zero that is off, and maybe nothing else."""
+    rng = np.random.default_rng(12)
+    X = rng.normal(size=(60, 3))
+    X[:, 2] = X[:, 1] + 0.1 * X[:, 2]  # as near as to be listed where it is another effect
+    many = tuple(
+        Candidate(name, "here", np.array(of), np.ones(len(of))) for name, of in (("off", (1,)), ("moves", columns))
+    )
+    space = ModelSpace(np.array([0]), (), many)
+    problem = build_problem(space, sums(X, 0.3 * X[:, 1] + rng.normal(0, 0.1, len(X))), 0.05)
+    sizes = range(len(problem.sizes))
+    best = max((evaluate(problem, (SelectedEffect(0, size),), (), 0.1) for size in sizes), key=by_posterior)
+    assert bool(alternatives(Search.on(problem), best)[0]) == listed
+
+
 @pytest.mark.parametrize("alike", [0.0, 1.0])
 def test_what_was_refused_beside_an_effect_does_not_take_its_place(alike: float) -> None:
     """The other column is large and by itself; or it is nearly the effect's own, and may well be it instead."""

@@ -122,7 +122,7 @@ def _in_place_of(
         as_likely = (candidate.is_curve and excluded) or (misfit < NAMING.alike_nats and _is_other(candidate, rival))
         near = gap <= (NAMING.listed_nats_of_special_cases if as_likely else NAMING.listed_nats)
         asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
-        if (rest and excluded) or rival.key in taken or not (near or asked):
+        if (rest and excluded) or rival.key in taken or _is_more_than(candidate, rival) or not (near or asked):
             continue
         worth = PRIORS.sure_nats if explained_anyway or own else 0.0
         if other.log_posterior - own < base.log_posterior + worth:
@@ -131,6 +131,11 @@ def _in_place_of(
             rival = lines.get(rival.location, rival)
         found.append(Rival(gap, rival, other, near, held))
     return found
+
+
+def _is_more_than(effect: Candidate, rival: Candidate) -> bool:
+    """Whether a rival with a name is the effect and something beside: as likely wherever that may be nothing."""
+    return not rival.is_curve and set(effect.columns) < set(rival.columns)
 
 
 def _is_other(effect: Candidate, rival: Candidate) -> bool:
