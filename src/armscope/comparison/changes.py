@@ -174,7 +174,9 @@ def _as_good(possible: Sequence[Possible], scores: Sequence[Scored], best: int) 
     ranked = sorted(range(len(possible)), key=lambda each: -scores[each].nats)
     near = [each for each in ranked if scores[each].nats > scores[best].nats - INDISTINGUISHABLE_NATS and each != best]
     there = [possible[each].placed for each in near if possible[each].sets == possible[best].sets]
-    return tuple(dict.fromkeys(plain(str(each)) for each in there))
+    # what is the change and something beside is no other one
+    own = set(possible[best].placed.terms)
+    return tuple(dict.fromkeys(plain(str(each)) for each in there if not own < set(each.terms)))
 
 
 def _change(
