@@ -35,8 +35,9 @@ def recorded(
     rng = np.random.default_rng(seed)
     parts = []
     for key, values in wanted.items():
-        placed = next(p for p in library(arm, table) if p.key == key and len(p.terms) == len(values))
-        parts.append(Part(placed, np.array(values, dtype=float)))
+        forms = [p for p in library(arm, table) if p.key == key and len(p.terms) >= len(values)]
+        placed = min(forms, key=lambda p: len(p.terms))  # what is not given is right
+        parts.append(Part(placed, np.array([*values, *[0.0] * (len(placed.terms) - len(values))])))
     turn = (
         Rotation.random(1, rng).as_matrix()[0] if far else Rotation.from_rotvec(1e-3 * rng.normal(size=3)).as_matrix()
     )

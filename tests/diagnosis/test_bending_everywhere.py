@@ -57,7 +57,8 @@ def with_uneven_bearings(arm_name: str, seed: int) -> FittedModel:
     arm, rng = arm_named(arm_name), np.random.default_rng(seed)
     table = one_run(arm, ROWS, seed)
     parts = []
-    for even, uneven in zip(BEARING_COMPLIANCE.place(arm, table), uneven_bearings(arm, table), strict=True):
+    alike = [placed for placed in BEARING_COMPLIANCE.place(arm, table) if not placed.variant]
+    for even, uneven in zip(alike, uneven_bearings(arm, table), strict=True):
         if np.isfinite(even.terms[0].plausible):
             soft = SHARE * even.terms[0].plausible * rng.uniform(0.5, 1.5)
             half, turn = 0.35 * soft, 2 * rng.uniform(0, np.pi)

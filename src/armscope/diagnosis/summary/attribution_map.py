@@ -87,14 +87,16 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
 def _whole_effects(model: FittedModel, recordings: Recordings) -> list[tuple[str, str, tuple[Term, ...]]]:
     """(location, driver, terms) of the library's effects that are weighed as a whole.
 
-    Those elsewhere than at a joint or the base, and those with a column of their own.
+    Those elsewhere than at a joint or the base, and those with a column of their own; what follows one driver at one
+    place (a link that grows, and that bows, with temperature) together.
     """
+    at: dict[tuple[str, str], dict[str, tuple[Term, ...]]] = {}
+    for effect in effects():
+        for placed in effect.place(model.arm, recordings) if isinstance(effect.atlas, str) and effect.atlas else ():
+            if effect.atlas not in GENERAL or Location.of(placed.location).kind not in ("base", "joint"):
+                at.setdefault((placed.location, str(effect.atlas)), {})[effect.name] = placed.terms
     return [
-        (placed.location, effect.atlas, placed.terms)
-        for effect in effects()
-        if isinstance(effect.atlas, str) and effect.atlas
-        for placed in effect.place(model.arm, recordings)
-        if effect.atlas not in GENERAL or Location.of(placed.location).kind not in ("base", "joint")
+        (place, name, tuple(each for terms in those.values() for each in terms)) for (place, name), those in at.items()
     ]
 
 
