@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.summary.constants import INTERVALS
 from armscope.recordings.motions import Motions, as_motions
 from armscope.robot.dynamics import MovingArm
 from tests.motion.moving import VISCOUS, moved, robot, table
@@ -80,3 +81,16 @@ def test_what_stands_for_a_cause_acts_on_its_joint(loaded: Motions) -> None:
         assert rivals
         for rival in rivals:
             assert set(placed[rival.chosen[-1].candidate].joints) & set(placed[number].joints)
+
+
+def test_a_load_is_known_but_for_what_a_drawing_leaves_open_of_its_link() -> None:
+    """Seen: 2.501 kg +- 2.5, as if the last link could weigh nothing: no evidence tells it from what it carries."""
+    load = {"mass_kg": 2.0, "com_mm": [30, 20, 60], "inertia_kg_m2": [0.02, 0.015, 0.01, 0.002, 0.001, 0.001]}
+    found = diagnose_motion(robot(), moved(robot(tool_load=load), 3, seconds=10.0), MotionSettings(cutoff=10.0))
+    (carried,) = [each for each in found.verdict.effects if each.effect == "payload_error"]
+    numbers = {number.name: number for number in carried.parameters}
+    assert len(numbers) > 4, "a load with an inertia of its own"
+    mass = numbers["mass"]
+    assert mass.interval[0] < 2.0 < mass.interval[1]
+    last_link_kg = 4.0
+    assert (mass.interval[1] - mass.interval[0]) / 2 < 2 * INTERVALS.link_known * last_link_kg

@@ -237,16 +237,17 @@ def _otherwise_off(selected: SelectedCauses) -> dict[int, list[Hypothesis]]:
     its own is all that its link can be off by, and no evidence tells them apart: what a drawing leaves open is open.
     """
     layout, best = selected.rows.layout, selected.best
+    least = best.log_posterior - INTERVALS.reach_nats
     found: dict[int, list[Hypothesis]] = {}
     for number in best.candidates:
         placed = layout.placed[number]
         if placed.inertial is None or placed.runs:
             continue
+        as_known = has_its_own_inertia(placed)
         within = [
             replace(each, log_posterior=best.log_posterior)
             for share, each in zip(SHARES, by_own_share(selected, number), strict=True)
-            if each.log_posterior > best.log_posterior - INTERVALS.reach_nats
-            or (has_its_own_inertia(placed) and share <= INTERVALS.link_known)
+            if (share <= INTERVALS.link_known if as_known else each.log_posterior > least)
         ]
         found |= {int(column): within for column in layout.columns[number]}
     return found
