@@ -62,6 +62,7 @@ from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.shares import shares_of
+from armscope.motion.summary.stated_load import load_or_link
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
@@ -174,6 +175,7 @@ def diagnose_motion(
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
     notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout), *told_gains(selected)]
+    notices += load_or_link(selected)
     progress("measuring on motion that took no part", 0.75)
     apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients)) if test else None
     verdict, held, entered = _judged(selected, sure, apart, settings)
