@@ -43,7 +43,8 @@ def no_test_sees_less_than(joint: str) -> float:
 def test_the_first_joint_hides_in_the_base_and_others_show_by_tenths_of_a_milliradian() -> None:
     found = least()
     assert np.isinf(found["joint 1"])
-    assert no_test_sees_less_than("joint 2") < found["joint 2"] < 1e-3
+    best = no_test_sees_less_than("joint 2")
+    assert best < found["joint 2"] < 2 * best, "what is shared costs something, and not as much again"
 
 
 def test_twice_the_noise_takes_a_zero_that_moves_farther() -> None:

@@ -114,7 +114,7 @@ class PlausibleSizes(Constants):
         "than another",
         unit="1/K",
     )
-    bow_rad_per_k: float = constant(1e-4, "turn of a link's end", "judgement: one side is the warmer", unit="rad/K")
+    warm_rad_per_k: float = constant(1e-4, "turn of a link or a zero", "judgement: one side is warmer", unit="rad/K")
     growth: float = constant(
         1.0e-4,
         "by which links grow or shrink in a session, as a share of their length",

@@ -110,7 +110,7 @@ def _run(source: str, place: str, call: Callable[[], Given]) -> Given:
         return call()
     except InputError:
         raise
-    except Exception as error:
+    except Exception as error:  # whatever a package does wrong when it is called
         frames = traceback.extract_tb(error.__traceback__)
         # where its own call is wrong, it never came as far as the package
         at = ([each for each in frames if not each.filename.startswith(ARMSCOPE)] or frames)[-1]

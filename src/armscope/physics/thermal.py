@@ -92,7 +92,7 @@ def _place_bows(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for place, _ in growing_links(arm, ONE):
         behind = place if arm.description.dh is not None and not arm.is_modified_dh else place.replace("link", "joint")
         terms = tuple(
-            term(f"tilt_{axis[1]}", "rad/K", (Direction(behind, axis), WARMTH), plausible=PLAUSIBLE.bow_rad_per_k)
+            term(f"tilt_{axis[1]}", "rad/K", (Direction(behind, axis), WARMTH), plausible=PLAUSIBLE.warm_rad_per_k)
             for axis in ("rx", "ry")
         )
         yield Placed(THERMAL_BOW, place, terms, (1.0, 1.0), "temperature")
@@ -129,7 +129,7 @@ def _place_zeros(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not varies(recordings.temperature, FORM.least_span_k):
         return
     for j in moving_joints(recordings):
-        drift = term("drift", "rad/K", (motor(j), WARMTH), plausible=PLAUSIBLE.bow_rad_per_k)
+        drift = term("drift", "rad/K", (motor(j), WARMTH), plausible=PLAUSIBLE.warm_rad_per_k)
         yield Placed(THERMAL_ZERO, f"joint {j}", (drift,), (1.0,), "temperature")
         offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
         both = (drift, offset)

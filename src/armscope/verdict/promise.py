@@ -45,7 +45,7 @@ def promised(verdict: Verdict) -> Promise:
 
 
 def rows_it_rests_on(verdict: Diagnosis) -> Recordings:
-    """The rows that a verdict's model was learned from: all but bad shots, beyond which it was never tried.
+    """The rows that a verdict's model was learned from: all but the bad shots that it lists.
 
     A single shot far out would else widen the range in which commands are given, though it counted for nothing.
     """

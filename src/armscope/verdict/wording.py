@@ -65,7 +65,7 @@ _ALSO = {
     "geometric": "also off",
     "elastic": "also giving way",
     "transmission": "also off",
-    "thermal": "also following it",
+    "thermal": "also with temperature",
     "drift": "also moving",
 }
 """What the places of a cause do that stand beside the first, by family."""

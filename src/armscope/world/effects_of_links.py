@@ -22,11 +22,9 @@ from armscope.world.kinds import (
 )
 from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden
+from armscope.world.tolerances import PARALLEL
 
 REFERENCE_C = 20.0
-
-
-PARALLEL = np.sin(np.radians(5))
 
 
 def skewing_tilt(geometry: Geometry, link: int) -> str:
