@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis import Settings, diagnose, play_by_order
 from armscope.recordings import Recordings
 from armscope.recordings.motion import sides_of_last_moves
 from armscope.robot import Arm
@@ -77,6 +77,22 @@ def test_a_joint_that_stood_still_rests_where_it_came_to_before() -> None:
     verdict = diagnose(arm, with_play(arm, table, 2, 42), QUICK)
     assert told(verdict) == [("joint 2", {"scatter", "play"})]
     assert not verdict.suspects
+
+
+@pytest.mark.parametrize(("gap", "tried"), [(GAP, True), (3e-5, False)])
+def test_play_that_moves_the_tool_by_less_than_the_noise_is_not_tried(
+    gap: float, tried: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Many rows show it clearly all the same: an arm of 12,000 was selected twice over for nothing."""
+    arm, asked = arm_named("six-axis"), []
+    monkeypatch.setattr(play_by_order, "_may_be_play", lambda found: True)
+    monkeypatch.setattr(play_by_order, "_has_play", lambda found: asked.append(found))
+    table = commanded(arm, 900, 45)
+    sides = sides_of_last_moves(table)
+    errors = np.zeros(table.motor_angles.shape)
+    errors[:, 1] = -gap / 2 * np.nan_to_num(sides[:, 1])
+    diagnose(arm, measured(arm, table, errors, 45), QUICK)
+    assert bool(asked) == tried
 
 
 def test_rows_that_somebody_sorted_say_nothing() -> None:

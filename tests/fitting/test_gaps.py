@@ -14,9 +14,10 @@ from armscope.fitting.registration import fit_frames
 from armscope.measurement.channel import nuisances
 from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
-from armscope.physics.effect import Placed
+from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import sharing_bases
 from armscope.physics.registry import library
+from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -48,6 +49,10 @@ def test_a_gap_beside_base_and_tool_is_as_large_as_planted_whatever_is_a_bad_sho
     found = gaps(fit, table, everyone, float("nan"))
     assert abs(found[2].size - GAP) < 0.1 * GAP
     assert found[2].clearly > 10
+    there = Part(play(arm, table), np.array([found[2].size]))
+    scene = Scene(arm, table)
+    moved = 1e3 * (scene.posture([there]).tool - scene.posture().tool)
+    assert found[2].rms_mm == pytest.approx(np.sqrt(np.mean(moved**2)), rel=0.02), "by the exact model"
     assert max(gap.clearly for motor, gap in found.items() if motor != 2) < 4
 
 

@@ -81,7 +81,8 @@ def _promising_sides(found: Selected) -> Array | None:
     """(N, m) sides by the order of rows, if they show play clearly beside all that was found; None if not.
 
     Rows that fit nothing are asked as they were weighed, and once more counting fully: they may be a branch. Jumps are
-    taken out, as they follow the order of rows, too.
+    taken out, as they follow the order of rows, too. Play that moves the tool by less than the noise can't have made
+    rows look like bad shots; a long table shows it clearly, and another selection would take as long as the first.
     """
     recordings, fit = found.table.recordings, found.fit
     everyone = np.ones(len(recordings), dtype=bool)
@@ -92,7 +93,8 @@ def _promising_sides(found: Selected) -> Array | None:
         sides = sides_of_last_moves(recordings, kept)
         table = replace(recordings, approach=sides)
         for weights, noise in readings:
-            clearly = max((gap.clearly for gap in gaps(fit, table, weights, noise, jumps).values()), default=0.0)
+            told = gaps(fit, table, weights, noise, jumps).values()
+            clearly = max((gap.clearly for gap in told if gap.rms_mm >= fit.noise), default=0.0)
             if clearly > best:
                 best, promising = clearly, sides
     return promising

@@ -19,10 +19,11 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True)
 class Gap:
-    """Play of a motor, rad; below zero where it stands ahead of its reading on each way."""
+    """Play of a motor, rad, below zero where it stands ahead of its reading on each way; RMS per axis, mm, if asked."""
 
     size: float
     stderr: float
+    rms_mm: float = float("nan")
 
     @property
     def clearly(self) -> float:
@@ -67,7 +68,8 @@ def gaps(
         at = np.append(beside, number)
         inverse = np.linalg.inv(sums.G[np.ix_(at, at)] + np.diag(ridge))
         size, stderr = float(inverse[-1] @ sums.b[at]), noise * float(np.sqrt(inverse[-1, -1]))
-        told[Location.of(gap.location).index + 1] = Gap(size, stderr)
+        rms_mm = abs(size) * float(np.sqrt(sums.G[number, number] / sums.n))
+        told[Location.of(gap.location).index + 1] = Gap(size, stderr, rms_mm)
     return told
 
 
