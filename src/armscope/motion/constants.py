@@ -164,9 +164,9 @@ class PriorRules(Constants):
         "measured: two published sets of the UR10e's gains differ by 25 % in the mean, 0.7 of which is each one's own",
     )
     largest_gain: float = constant(
-        5.0,
+        12.0,
         "times too large or too small that a torque may be recorded",
-        "judgement: beyond it units are wrong, or another motor is stated",
+        "derived: of other units, kgf m and lbf in, the farther is 9.8 N m; beyond, another joint is recorded",
         unit="1",
     )
     unit: float = constant(
@@ -253,6 +253,12 @@ class MotionTelling(Constants):
         "of what friction and rotors leave, below which a cause is apart from the story",
         "judgement: nobody would repair it first",
     )
+    of_the_rest: float = constant(
+        0.25,
+        "of what is left once larger causes are cured, in squares, from which a cause is part of the story, too",
+        "judgement: an eighth of the error that is then there; beside a spring of 400 N m a link that is 8 kg heavier "
+        "has less than a hundredth of all",
+    )
     looked_at: int = constant(40, "rivals of a cause", "judgement: time", unit="causes")
     listed_nats: float = constant(
         20.0, "by which a rival that is listed may fall short", "judgement: told, not hidden", unit="nats"
@@ -267,16 +273,6 @@ class MotionTelling(Constants):
         1e-3, "chance that noise alone colours a cell of the atlas", "convention: dozens of cells are looked at"
     )
     in_headline: int = constant(3, "causes", "judgement: a sentence holds no more", unit="causes")
-
-
-@dataclass(frozen=True)
-class ModelFileRules(Constants):
-    """What a model file may hold."""
-
-    largest: float = constant(
-        1e9, "of any number", "judgement: no arm comes near it; squares of larger ones overflow", unit="SI"
-    )
-    least_knots: int = constant(4, "of a free curve", "derived: a cubic spline has no fewer", unit="columns")
 
 
 @dataclass(frozen=True)
@@ -295,5 +291,4 @@ NOISE = RowNoiseRules()
 CONSISTENCY = ConsistencyRules()
 TELLING = MotionTelling()
 CHECK = CheckRules()
-MODEL_FILE = ModelFileRules()
 EXPORT = ExportRules()

@@ -61,7 +61,7 @@ from armscope.motion.summary.late_friction import told_late
 from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
-from armscope.motion.summary.shares import shares_of
+from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
@@ -252,8 +252,8 @@ def _judged(
     parts, held, alone = that_others_tell(selected, parts, held)
     what += f", but for {', '.join(alone)}, of whose own load no other run knows" if alone else ""
     held_out = replace(measure(held, what), by_run=by_run)
-    explained, by_masses = shares_of(selected)
-    numbered = found_causes(selected, sure, explained)
+    worth, by_masses = worth_of(selected)
+    numbered = found_causes(selected, sure, worth)
     order, found = [number for number, _ in numbered], [cause for _, cause in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = left_over(selected)

@@ -36,7 +36,8 @@ class FoundCause:
         rms: of its torque at the joint where it is largest.
         unit: of that: N m, or N of a sliding joint.
         joint: at which it is largest.
-        share: of what friction and rotors leave, averaged over the orders in which causes come in.
+        share: of the squared torque that friction and rotors leave: how much goes when this is cured as it was found,
+            averaged over the orders in which all can be cured; below zero it hides part of what others do.
         evidence_nats: what is lost by leaving it out.
         alternatives: what could stand in its place, nearest first.
         carries_over: what other paths say of it; empty where that was not tested.

@@ -3,7 +3,7 @@
 import pytest
 from pydantic import ValidationError
 
-from armscope.motion.constants import MODEL_FILE
+from armscope.motion.model.constants import MODEL_FILE
 from armscope.motion.model.file_contents import LawFile, ParameterFile
 
 LAW = {"kind": "viscous", "joints": (1,), "numbers": (0.5,)}

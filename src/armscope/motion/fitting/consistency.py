@@ -125,16 +125,31 @@ def sizes_by_block(selected: Weighed, columns: Indices, own: Array) -> tuple[Arr
     Returns:
         (blocks,) as shares of these, and their standard errors.
     """
-    best, problem = selected.best, selected.problem
+    found = [_factor_of(selected, columns, own, block) for block in selected.blocks]
+    return np.array([size for size, _ in found]), np.array([error for _, error in found])
+
+
+def factor_in(selected: Weighed, candidate: int, rows: NormalEquations) -> tuple[float, float]:
+    """How large a candidate is by some rows alone.
+
+    Args:
+        selected: a selection.
+        candidate: its number.
+        rows: sums over these rows.
+
+    Returns:
+        Its size as a share of the size from all, and the standard error of that.
+    """
+    columns = selected.problem.space.candidates[candidate].columns
+    own = coefficients_of(selected.problem, selected.best)[columns] * selected.problem.scale[columns]
+    return _factor_of(selected, columns, own, rows)
+
+
+def _factor_of(selected: Weighed, columns: Indices, own: Array, rows: NormalEquations) -> tuple[float, float]:
+    best, scale = selected.best, selected.problem.scale
     others = np.setdiff1d(best.columns, columns)
-    precision = best.noise**2 / best.variance[best.at(others)]
-    mean = best.means(others)
-    sizes, errors = [], []
-    for block in selected.blocks:
-        size, error = _factor(block.scaled(problem.scale), columns, own, others, (precision, mean), best.noise)
-        sizes.append(size)
-        errors.append(error)
-    return np.array(sizes), np.array(errors)
+    held = (best.noise**2 / best.variance[best.at(others)], best.means(others))
+    return _factor(rows.scaled(scale), columns, own, others, held, best.noise)
 
 
 def _factor(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from armscope.motion.library import clauses, remedies, remedies_of_curves, remedies_of_laws
 from armscope.motion.library.causes import Cause
 from armscope.motion.library.changes_catalogue import CHANGES
+from armscope.motion.library.clauses_of_gains import gain_clause
 from armscope.motion.library.remedies_of_loads import as_tool_load
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.verdict.effects import UNKNOWN
@@ -128,7 +129,7 @@ GAIN = Cause(
     "Hang a known mass on the arm: torque must change by its weight times its lever.",
     "Correct the joint's torque constant.",
     labels={"gain": "recorded / true torque − 1"},
-    clause=clauses.gain_clause,
+    clause=gain_clause,
     remedy=remedies.by_factor,
 )
 DELAY = Cause(

@@ -51,8 +51,8 @@ def rms_of(cause: FoundCause) -> str:
     return f"{rounded(cause.rms)} {cause.unit} RMS"
 
 
-def _open(parameter: Parameter) -> bool:
-    """Whether its sign is open."""
+def holds_zero(parameter: Parameter) -> bool:
+    """Whether a parameter's sign is open."""
     low, high = parameter.interval
     return low <= 0 <= high
 
@@ -134,28 +134,6 @@ def open_delay_clause(cause: FoundCause, numbers: Numbers) -> str:
     )
 
 
-def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
-    """A torque constant that is off, or a torque whose sign is turned."""
-    gain = numbers["gain"]
-    if is_turned(gain):
-        size = turned_size(gain)
-        off = "" if _open(size) else f", and its size {amount(size)} too {'large' if size.value > 0 else 'small'}"
-        return f"the sign of the recorded torque of {cause.location} is turned{off}"
-    shown = Parameter("gain", "%", 100 * gain.value, 100 * gain.stderr)
-    side = "large" if gain.value > 0 else "small"
-    return f"the recorded torque of {cause.location} is {amount(shown)} too {side}"
-
-
-def is_turned(gain: Parameter) -> bool:
-    """Whether a gain's error is more than all of the torque: what is recorded has the other sign."""
-    return gain.interval[1] < -1
-
-
-def turned_size(gain: Parameter) -> Parameter:
-    """By how many percent a torque is too large or small once its sign is turned back."""
-    return Parameter("size", "%", 100 * (-2 - gain.value), 100 * gain.stderr)
-
-
 def compliance_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A drive that gives way."""
     return f"the drive of {cause.location} gives way under its link's torque, by {amount(numbers['compliance'])}"
@@ -168,7 +146,7 @@ def balance_clause(cause: FoundCause, numbers: Numbers) -> str:
         return f"a gas spring or balancer between two links acts on {cause.location} ({rms_of(cause)})"
     if stiffness is None:
         return f"a counterweight or spring acts on {cause.location} ({rms_of(cause)})"
-    if _open(stiffness):
+    if holds_zero(stiffness):
         return f"something pulls {cause.location} to one side ({rms_of(cause)})"
     verb = "back to one position" if stiffness.value > 0 else "away from one position"
     return f"a spring pulls {cause.location} {verb}, by {amount(stiffness)}"
@@ -177,7 +155,7 @@ def balance_clause(cause: FoundCause, numbers: Numbers) -> str:
 def payload_clause(cause: FoundCause, numbers: Numbers) -> str:
     """A load that is heavier or lighter than stated, or sits elsewhere."""
     mass = numbers.get("mass")
-    if mass is not None and not _open(mass):
+    if mass is not None and not holds_zero(mass):
         placed = any(name.startswith("m") and name != "mass" for name in numbers)
         where = "" if placed else ", taken to sit at the tool point"
         return f"the arm carries {amount(mass)} {'more' if mass.value > 0 else 'less'} than stated{where}"

@@ -84,18 +84,22 @@ class DryFriction:
         at = replace(signals, dq=dq[:, None], ddq=ddq[:, None])
         return side(at, np.array([self.width[joint] if width is None else width]))[:, 0]
 
-    def path(self, signals: Signals, torque: Array) -> BSpline:
-        """Over time, torques (N, m) without their dry friction: what is smooth of them.
+    def without(self, signals: Signals, torque: Array) -> Array:
+        """(N, m) torques without their dry friction: what is smooth of them.
 
         Args:
             signals: N samples.
             torque: (N, m) with dry friction.
 
         Returns:
-            A cubic spline of all joints.
+            Torque, N m (N).
         """
         turned = replace(signals, dq=signals.dq - signals.ddq * self.turning)
-        return make_interp_spline(signals.time, torque - self.torque * side(turned, self.width), k=3)
+        return np.asarray(torque - self.torque * side(turned, self.width))
+
+    def path(self, signals: Signals, torque: Array) -> BSpline:
+        """Over time, what is smooth of torques (N, m) with dry friction: a cubic spline of all joints."""
+        return make_interp_spline(signals.time, self.without(signals, torque), k=3)
 
     def delayed(self, signals: Signals, path: BSpline, joint: int, delay: float) -> Array:
         """(N,) a joint's torque of some time ago: what is smooth by a spline, and its dry friction exactly.
@@ -115,6 +119,9 @@ class DryFriction:
     def rounded(self, signals: Signals, torque: Array, delay: Array, rate: float) -> Array:
         """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
 
+        Not of dry friction: over which way it changes sides is each joint's own. Presliding of all joints would be
+        taken for a filter of their drives, and a soft drive was named that took it back from the torque of the masses.
+
         Args:
             signals: N samples.
             torque: (N, m) in time with the motion.
@@ -124,12 +131,13 @@ class DryFriction:
         Returns:
             It.
         """
-        late = np.flatnonzero(delay)
+        smooth, late = self.without(signals, torque), np.flatnonzero(delay)
         if len(late):
-            torque, path = torque.copy(), self.path(signals, torque)
+            path = make_interp_spline(signals.time, smooth, k=3)
+            smooth = smooth.copy()
             for j in map(int, late):
-                torque[:, j] = self.delayed(signals, path, j, delay[j])
-        return np.asarray(np.gradient(np.gradient(torque, 1 / rate, axis=0), 1 / rate, axis=0))
+                smooth[:, j] = seen_later(signals.time, path, j, delay[j])
+        return np.asarray(np.gradient(np.gradient(smooth, 1 / rate, axis=0), 1 / rate, axis=0))
 
 
 def own_columns(

@@ -10,10 +10,10 @@ import numpy as np
 from armscope.core.files import write_yaml
 from armscope.core.inputs import InputError, format_of, read_yaml, validate
 from armscope.core.types import Array
-from armscope.motion.constants import MODEL_FILE
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import OWN_NAMES
 from armscope.motion.library.sides import sharp_width
+from armscope.motion.model.constants import MODEL_FILE
 from armscope.motion.model.file_check import CauseReader
 from armscope.motion.model.file_contents import (
     FORMAT,

@@ -8,11 +8,11 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
-from armscope.motion.constants import MODEL_FILE
 from armscope.motion.library.catalogue import CAUSES
 from armscope.motion.library.causes import Moment, PlacedCause
 from armscope.motion.library.laws import LAWS, Law
 from armscope.motion.library.twist_catalogue import TWISTS
+from armscope.motion.model.constants import MODEL_FILE
 from armscope.motion.model.file_contents import CauseFile, LawFile
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from armscope.core.inputs import Strict
-from armscope.motion.constants import MODEL_FILE
+from armscope.motion.model.constants import MODEL_FILE
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import InertialName
 

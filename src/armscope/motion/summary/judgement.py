@@ -22,6 +22,7 @@ from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
 from armscope.motion.summary.rivals import listed_rivals
+from armscope.motion.summary.shares import Worth
 from armscope.motion.summary.words import clause, cure
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
 from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
@@ -29,13 +30,13 @@ from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
 
-def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[float]) -> list[tuple[int, FoundCause]]:
+def found_causes(selected: SelectedCauses, sure: Sureness, worth: Sequence[Worth]) -> list[tuple[int, FoundCause]]:
     """Every chosen cause with what is known about it, largest share first, beside its candidate's number.
 
     Args:
         selected: the selection.
         sure: what else would do, and how wide intervals are.
-        explained: share of what friction and rotors leave, of each chosen cause.
+        worth: of each chosen cause.
 
     Returns:
         The causes.
@@ -45,14 +46,14 @@ def found_causes(selected: SelectedCauses, sure: Sureness, explained: Sequence[f
     for number, effect in enumerate(best.chosen):
         placed = selected.rows.layout.placed[effect.candidate]
         agreed = agreement(selected, effect.candidate)
-        found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (explained[number], agreed))))
+        found.append((effect.candidate, _found(selected, sure, effect.candidate, placed, (worth[number], agreed))))
     return sorted(found, key=lambda each: -each[1].share)
 
 
 def _found(
-    selected: SelectedCauses, sure: Sureness, number: int, placed: PlacedCause, known: tuple[float, PathAgreement]
+    selected: SelectedCauses, sure: Sureness, number: int, placed: PlacedCause, known: tuple[Worth, PathAgreement]
 ) -> FoundCause:
-    share, agreed = known
+    worth, agreed = known
     layout = selected.rows.layout
     columns = layout.columns[number]
     coefficients = np.zeros(layout.width)
@@ -68,12 +69,12 @@ def _found(
         family=placed.cause.family,
         driver=placed.driver,
         title=title(placed),
-        minor=share < TELLING.minor_share,
+        minor=worth.minor,
         parameters=parameters,
         rms=float(rms[joint]),
         unit="N" if layout.arm.sliding[joint] else "N m",
         joint=f"joint {joint + 1}",
-        share=share,
+        share=worth.share,
         evidence_nats=float(sure.search.log_odds(selected.best, number)),
         alternatives=alternatives,
         carries_over=agreed.words,

@@ -1,7 +1,8 @@
 """Names that the evidence asks for and that still can't stand: impossible sizes, names that cancel, no other path.
 
 Evidence compares what the library has. Where the truth is not in it, the best of its names fit by numbers that no arm
-has, by taking each other's torque back, or on one path only; each of these shows that the name is wrong.
+has, by taking each other's torque back, on one path only, or only where a joint turns back; each of these shows that
+the name is wrong.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.in_proportion import rather_in_proportion
+from armscope.motion.summary.near_reversals import told_by_reversals_alone
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -65,7 +67,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
 
 def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
     """Numbers of the names that can't stand."""
-    own = {*_impossible(selected), *_between_samples(selected, rate)}
+    own = {*_impossible(selected), *_between_samples(selected, rate), *told_by_reversals_alone(selected)}
     return frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
 
 
