@@ -100,6 +100,19 @@ def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
+WAY = 1.5e-3
+"""Over which friction takes hold, rad: ten times a stiff gear's, as these arms turn slowly."""
+
+
+def presliding(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """What friction of every joint lacks after each reversal (Dahl 1968)."""
+    held = np.sign(dq).copy()
+    for row in range(1, len(q)):
+        step = q[row] - q[row - 1]
+        held[row] = np.sign(step) + (held[row - 1] - np.sign(step)) * np.exp(-np.abs(step) / WAY)
+    return 4 * COULOMB * (held - np.sign(dq)) + 3 * COULOMB * np.sign(dq)
+
+
 def behind_its_drive(
     arm: MovingArm, joint: int, compliance: float, seed: int = 1, noise: float = 0.02, seconds: float = 10.0
 ) -> pd.DataFrame:

@@ -60,9 +60,7 @@ class LibraryRules(Constants):
     )
     stribeck_widths: int = constant(5, "speeds that are scanned", "judgement: in steps of two", unit="speeds")
     between_speeds: float = constant(0.5, "relative, of a scanned speed, allowed for", "derived: half a scan's step")
-    delays_s: tuple[float, ...] = constant(
-        (0.004, 0.012, 0.036), "delays that are tried first", "judgement: of drives and field buses", unit="s"
-    )
+    delay_s: float = constant(0.01, "delay that is tried first", "judgement: of drives and field buses", unit="s")
     joints_of_a_clock: int = constant(3, "for one delay of all", "judgement: two may be alike by chance", unit="joints")
     few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")
     most_waves: int = constant(400, "per turn that are tried", "derived: two per motor turn behind a gear of 200 to 1")
@@ -125,15 +123,16 @@ class PriorRules(Constants):
     lightest_share: float = constant(
         0.1, "of the mean mass, that a link counts as at least", "judgement: links of a few grams in a file are stubs"
     )
-    reversal: float = constant(
-        0.05,
-        "of a joint's torque: how far the shape of friction's change of sides is free",
-        "judgement: a part of dry friction",
-    )
     turning_s: float = constant(
         0.002,
-        "by which a joint's torque may change sides sooner or later than its speed, unnamed",
+        "by which a joint's torque may change sides sooner or later than its speed, and over which, unnamed",
         "judgement: a milliradian of presliding, or a filter of a drive",
+        unit="s",
+    )
+    longest_turning_s: float = constant(
+        0.03,
+        "by which a joint's friction is taken to change sides later or sooner",
+        "measured: 27 ms at joint 5 of a UR10e",
         unit="s",
     )
     reversal_sizes: tuple[float, ...] = constant(
@@ -245,6 +244,24 @@ class ConsistencyRules(Constants):
 
 
 @dataclass(frozen=True)
+class SettledRules(Constants):
+    """Where friction of a joint has long changed sides."""
+
+    seconds: float = constant(
+        0.1,
+        "since a joint turned back, and until it does",
+        "judgement: friction that clings does so for 10 to 20 ms, the low-pass of rows for 20 to 80 more",
+        unit="s",
+    )
+    way: float = constant(
+        0.01,
+        "of a joint's travel that it must be from there, too",
+        "judgement: some milliradians of presliding, of a radian",
+        unit="1",
+    )
+
+
+@dataclass(frozen=True)
 class MotionTelling(Constants):
     """How much is told."""
 
@@ -289,6 +306,7 @@ LIBRARY = LibraryRules()
 PRIOR = PriorRules()
 NOISE = RowNoiseRules()
 CONSISTENCY = ConsistencyRules()
+SETTLED = SettledRules()
 TELLING = MotionTelling()
 CHECK = CheckRules()
 EXPORT = ExportRules()

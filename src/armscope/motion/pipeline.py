@@ -16,9 +16,10 @@ from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.fitting.selection import model_of, select_causes
 from armscope.motion.fitting.side_widths import widths_of_sides
 from armscope.motion.fitting.space import OF_MASSES
+from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.layout import TorqueLayout
@@ -124,8 +125,8 @@ class MotionDiagnosis:
         numbers = [effect.candidate for effect in self.selected.best.chosen]
         return fitted_model(
             layout,
-            self.selected.coefficients,
-            [(number, covariance_of(self.selected, number, self.sure.factor)) for number in numbers],
+            self.selected.told,
+            [(n, values_of(self.selected, n), covariance_of(self.selected, n, self.sure.factor)) for n in numbers],
             self.how,
             tuple(cause for twist in self.twists for cause in twist.fitted),
         )
@@ -177,7 +178,7 @@ def diagnose_motion(
     notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout), *told_gains(selected)]
     notices += load_or_link(selected)
     progress("measuring on motion that took no part", 0.75)
-    apart = build_rows(layout, test, how, estimated_model(layout, selected.coefficients)) if test else None
+    apart = build_rows(layout, test, how, model_of(selected)) if test else None
     verdict, held, entered = _judged(selected, sure, apart, settings)
     twists = judged_twists(selected, seen, train, how)
     verdict = with_links(verdict, [twist.side for twist in twists])

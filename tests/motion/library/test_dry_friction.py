@@ -33,22 +33,22 @@ def low(values: np.ndarray, rate: float, every: int = 1) -> np.ndarray:
     return without_lag(values, 15.0, rate, 200)[::every]
 
 
-def test_a_late_torque_is_that_of_a_hundred_times_finer_samples() -> None:
+def test_friction_that_turns_late_is_that_of_a_hundred_times_finer_samples() -> None:
     coarse, fine = motion(RATE), motion(100 * RATE)
-    true = low(np.interp(fine.time - LATE_S, fine.time, torque(fine)), 100 * RATE, 100)
-    dry = DryFriction.of(ARM, np.full(3, DRY))
-    found = low(dry.delayed(coarse, dry.path(coarse, torques(coarse)), 0, LATE_S), RATE)
+    sides = [DryFriction.of(ARM, np.full(3, DRY)).side(signals, 0) for signals in (coarse, fine)]
+    true = low(np.interp(fine.time - LATE_S, fine.time, DRY * sides[1]), 100 * RATE, 100)
+    found = low(DRY * DryFriction.of(ARM, np.full(3, DRY), LATE_S).side(coarse, 0), RATE)
     inside = slice(50, -50)
     assert np.abs(found - true)[inside].max() < 0.02 * DRY
     # a straight line between samples is off by more than twice that, and more near reversals asks for a law
-    straight = low(np.interp(coarse.time - LATE_S, coarse.time, torque(coarse)), RATE)
+    straight = low(np.interp(coarse.time - LATE_S, coarse.time, DRY * sides[0]), RATE)
     assert np.abs(straight - true)[inside].max() > 0.04 * DRY
 
 
-def test_a_torque_in_time_is_itself() -> None:
+def test_a_torque_without_its_dry_friction_is_smooth() -> None:
     signals = motion(RATE)
-    dry = DryFriction.of(ARM, np.full(3, DRY))
-    assert dry.delayed(signals, dry.path(signals, torques(signals)), 0, 0.0) == pytest.approx(torque(signals))
+    left = DryFriction.of(ARM, np.full(3, DRY)).without(signals, torques(signals))
+    assert left == pytest.approx(VISCOUS * signals.dq)
 
 
 def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
@@ -70,15 +70,23 @@ def test_a_motion_of_some_time_ago_is_its_own_whatever_was_asked_of_another() ->
     np.testing.assert_allclose(acceleration[inside], 2 * np.cos(2 * before)[inside], atol=1e-5)
 
 
-def test_only_how_friction_turns_is_seen_later_where_a_joint_is_late() -> None:
-    signals = motion(RATE)
+def test_all_that_changes_sides_with_friction_is_later_where_it_turns_later_and_nothing_else() -> None:
+    signals, sides, others = motion(RATE), [1, 4, 5], [0, 2, 3]
     columns = own_columns(ARM, signals, np.array([0.0, 3 / RATE, 0.0]))
-    assert np.array_equal(columns[:, 0, :4], columns[:, 1, :4])
-    assert columns[20:-20, 1, 4:] == pytest.approx(columns[17:-23, 0, 4:], abs=1e-6 * np.abs(columns).max())
+    assert np.array_equal(columns[:, 0][:, others], columns[:, 1][:, others])
+    later, now = columns[20:-20, 1][:, sides], columns[17:-23, 0][:, sides]
+    assert later == pytest.approx(now, abs=1e-5 * np.abs(columns).max())
 
 
 def test_friction_that_turns_later_than_its_speed_does() -> None:
     signals = motion(RATE)
-    later = DryFriction.of(ARM, np.ones(3), 0.02).side(signals, 0)
-    at = replace(signals, dq=signals.dq - 0.02 * signals.ddq)
-    assert later == pytest.approx(DryFriction.of(ARM, np.ones(3)).side(at, 0))
+    later, now = (DryFriction.of(ARM, np.ones(3), by).side(signals, 0) for by in (2 / RATE, 0.0))
+    assert later[20:-20] == pytest.approx(now[18:-22], abs=1e-4)
+
+
+def test_dry_friction_has_no_part_in_what_drives_round_off() -> None:
+    signals, none = motion(RATE), np.zeros(3)
+    dry = DryFriction.of(ARM, np.full(3, DRY), 0.01)
+    both = DRY * np.column_stack([dry.side(signals, joint) for joint in range(3)]) + VISCOUS * signals.dq
+    smooth = DryFriction.of(ARM, none).rounded(signals, VISCOUS * signals.dq, none, RATE)
+    assert dry.rounded(signals, both, none, RATE) == pytest.approx(smooth, abs=1e-6)

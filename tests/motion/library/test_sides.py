@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.motion.library.sides import blunt_width, coulomb_width, sharp_width, side
+from armscope.motion.library.sides import coulomb_width, sharp_width, side
 from armscope.motion.samples.preparation import Signals
 from tests.motion.moving import robot
 
@@ -30,10 +30,3 @@ def test_a_side_is_the_mean_over_a_samples_time(acceleration: float) -> None:
 
 def test_fits_turn_over_more_sharply_than_the_widest_allowed() -> None:
     assert np.all(sharp_width(robot()) < coulomb_width(robot()))
-
-
-def test_the_shape_is_free_up_to_the_usual_width_or_a_step_beyond_a_wide_one() -> None:
-    arm = robot()
-    np.testing.assert_array_equal(blunt_width(arm, sharp_width(arm)), coulomb_width(arm))
-    wide = 4 * coulomb_width(arm)
-    assert np.all(blunt_width(arm, wide) > wide)

@@ -18,12 +18,12 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary import foretelling
 from armscope.motion.summary.foretelling import misfits, surprises, with_backgrounds_that_foretell
-from tests.motion.moving import moved, robot
+from tests.motion.moving import moved, presliding, robot
 
 
 @pytest.fixture(scope="module")
 def selected() -> SelectedCauses:
-    found = diagnose_motion(robot(), moved(robot(), 3, seconds=10.0), MotionSettings(cutoff=10.0)).selected
+    found = diagnose_motion(robot(), moved(robot(), 3, presliding, seconds=10.0), MotionSettings(cutoff=10.0)).selected
     assert found.best.background[1], "friction changes sides at times of its own to begin with"
     return found
 

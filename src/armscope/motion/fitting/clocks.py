@@ -43,29 +43,6 @@ def parted_where_they_differ(search: Search, best: Hypothesis, placed: Sequence[
     return max(best, found, key=lambda each: each.log_posterior)
 
 
-def turned_where_not_late(search: Search, best: Hypothesis, placed: Sequence[PlacedCause]) -> Hypothesis:
-    """Friction that changes sides in its own way in the place of delays, where the evidence prefers it.
-
-    Two steps at once: beside a delay that puts most reversals right, those numbers are not worth their price, and
-    without both it is the delay that says more.
-
-    Args:
-        search: on the hypothesis' problem.
-        best: a hypothesis.
-        placed: what competes.
-
-    Returns:
-        The more probable of both.
-    """
-    family = [each.name for each in search.space.families].index("reversals")
-    late = [number for number in best.candidates if placed[number].cause is catalogue.DELAY]
-    if not late or best.background[family]:
-        return best
-    sizes = range(1, search.space.families[family].sizes)
-    others = [search.with_background(search.without(best, late), family, size) for size in sizes]
-    return max([best, *others], key=lambda each: each.log_posterior)
-
-
 def rivals_at_hand(selected: SelectedCauses) -> Iterator[tuple[int, PlacedCause, bool]]:
     """Delays that compete with those that are chosen, at the numbers that suit them.
 

@@ -22,12 +22,13 @@ class Estimate:
     Attributes:
         inertial: (10 n,) inertial parameters.
         background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
-        delay: (m,) s by which torques are late: where friction changes sides is then seen later, too.
+        delay: (m,) s by which torques are late.
         of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
         of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
         laws: causes of one joint that follow the motion alone, with their numbers: a delay is theirs, too.
         loads: what is carried for some of a run only, with its numbers.
         gain: (m,) by which recorded torque exceeds the true one; None: by nothing.
+        turning: (m,) s by which friction changes sides later than the speed, as far as columns are formed so; None: 0.
     """
 
     inertial: Array
@@ -38,6 +39,7 @@ class Estimate:
     laws: tuple[tuple[PlacedCause, Array], ...] = ()
     loads: tuple[tuple[PlacedCause, Array], ...] = ()
     gain: Array | None = None
+    turning: Array | None = None
 
     def carried(self, signals: Signals, bodies: Bodies) -> Array | float:
         """(N, m) torque of what is carried for some of a run only, of N samples."""

@@ -61,7 +61,7 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
             more, unsure = lag_step(selected, number)
             better = float(values[0]) + more
             settled = NOISE.settled * max(float(error[0]), unsure)
-            rests = abs(better - now) < settled and (cause.common or abs(float(values[0]) - now) < settled)
+            rests = abs(better - now) < settled
             better = between.next(frozenset(selected.best.candidates), number, now, better)
         elif cause.cause is catalogue.COMPLIANCE:
             better = float(values[0])

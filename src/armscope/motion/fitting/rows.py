@@ -50,6 +50,7 @@ class MotionRows:
         gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
             is true torque is recorded. A gain's own column is the stated torque, so that
             (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
+        turning: (m,) s later than the speed, at which friction changes sides in columns; what is told is beyond that.
         samples: that they were formed of.
         pauses: of each joint, in which it is held by nobody knows what.
     """
@@ -66,6 +67,7 @@ class MotionRows:
     columns: tuple[NDArray[np.float32], ...]
     at: tuple[Indices, ...]
     gain: Array
+    turning: Array
     samples: tuple[StatedSamples, ...]
     pauses: tuple[Pauses, ...]
 
@@ -178,8 +180,10 @@ def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
     for j in range(len(at)):
         columns.append(np.concatenate([piece.columns[j] for piece in pieces]))
     samples = tuple(each for piece in pieces for each in piece.samples)
-    pauses, gain = joined([(len(piece), piece.pauses) for piece in pieces]), pieces[0].gain
-    return MotionRows(layout, columns=tuple(columns), at=at, gain=gain, samples=samples, pauses=pauses, **whole)
+    pauses, (gain, turning) = joined([(len(each), each.pauses) for each in pieces]), (pieces[0].gain, pieces[0].turning)
+    return MotionRows(
+        layout, columns=tuple(columns), at=at, gain=gain, turning=turning, samples=samples, pauses=pauses, **whole
+    )
 
 
 def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
@@ -188,7 +192,7 @@ def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows])
         fresh, where = old.copy(), np.searchsorted(at, pieces[0].at[j])
         fresh[:, where] = np.concatenate([piece.columns[j] for piece in pieces])
         columns.append(fresh)
-    return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain)
+    return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain, turning=pieces[0].turning)
 
 
 def _stated(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:
@@ -206,9 +210,10 @@ class _Piece:
     ) -> None:
         self.layout, self.samples, self.how, self.regressor = layout, samples, how, regressor
         self.gain = np.ones(layout.arm.n_motors) if model.gain is None else model.gain
+        self.turning = np.zeros(layout.arm.n_motors) if model.turning is None else model.turning
         arm, signals = layout.arm, samples.signals
         self.arm, self.signals = arm, signals
-        self.background = own_columns(arm, signals, model.delay, width=layout.width_of_sides)
+        self.background = own_columns(arm, signals, self.turning, layout.width_of_sides)
         inertial = model.inertial_in(signals.run)
         rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
@@ -217,7 +222,7 @@ class _Piece:
         gravity = None
         if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
-        dry = DryFriction.of(arm, model.background[:, 1], width=layout.width_of_sides)
+        dry = DryFriction.of(arm, model.background[:, 1], self.turning, layout.width_of_sides)
         rate = how.rate / signals.stride
         moment = Moment(
             signals=signals,
@@ -277,6 +282,7 @@ class _Piece:
             columns=tuple(columns),
             at=tuple(at),
             gain=self.gain,
+            turning=self.turning,
             samples=(self.samples,),
         )
 

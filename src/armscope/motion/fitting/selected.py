@@ -15,6 +15,7 @@ from armscope.inference.problem import Problem
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.sums import JointSums
 from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_elsewhere, weighed
+from armscope.motion.library.layout import DRY, OWN
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +45,20 @@ class SelectedCauses:
     def coefficients(self) -> Array:
         """(p,) of all columns, SI."""
         return coefficients_of(self.problem, self.best)
+
+    @functools.cached_property
+    def dry(self) -> Array:
+        """(m,) N m of dry friction, the stated part counted in."""
+        layout = self.rows.layout
+        fitted = self.coefficients[layout.own].reshape(-1, OWN)[:, DRY]
+        return np.asarray(fitted + np.nan_to_num(layout.arm.stated_background[:, DRY]))
+
+    @functools.cached_property
+    def told(self) -> Array:
+        """(p,) coefficients as a model holds them: friction's change of sides counted from the speed's."""
+        found = self.coefficients.copy()
+        found[self.rows.layout.reversals[:, 1]] += self.rows.turning * self.dry
+        return found
 
     @functools.cached_property
     def modelled(self) -> Array:

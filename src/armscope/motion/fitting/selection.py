@@ -15,10 +15,11 @@ from armscope.inference.model_space import ModelSpace
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE, PRIOR
-from armscope.motion.fitting.clocks import parted_where_they_differ, turned_where_not_late
+from armscope.motion.fitting.clocks import parted_where_they_differ
 from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.hoses import offsets_for_cables
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
+from armscope.motion.fitting.near_reversals import told_by_reversals_alone
 from armscope.motion.fitting.refining import refined, sits_nowhere
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
@@ -61,6 +62,31 @@ def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
     return Estimate(inertial, background, delay, of_runs, laws=tuple(laws), loads=tuple(loads), gain=gain)
 
 
+def model_of(selected: SelectedCauses) -> Estimate:
+    """What columns of a selection's rows, and of others like them, are functions of."""
+    return replace(
+        estimated_model(selected.rows.layout, selected.coefficients),
+        turning=selected.rows.turning,
+    )
+
+
+def turning_of(selected: SelectedCauses) -> Array:
+    """(m,) s by which friction changes sides later than the speed, where that is told; else as columns have it.
+
+    Its slope over time is a shift only as long as the low-pass rounds more off: friction that clings for 12 ms is far
+    from it at 25 Hz, and a delay of all torque fits better.
+    """
+    best, scale = selected.best, selected.problem.scale
+    turning, dry = selected.rows.turning.copy(), selected.dry
+    for j, column in enumerate(selected.rows.layout.reversals[:, 1]):
+        if column not in best.columns or dry[j] <= 0:
+            continue
+        error = float(np.sqrt(best.variances(np.array([column]))[0])) / scale[column]
+        if error < PRIOR.turning_s * dry[j]:
+            turning[j] += selected.coefficients[column] / dry[j]
+    return np.clip(turning, -PRIOR.longest_turning_s, PRIOR.longest_turning_s)
+
+
 def select_causes(
     layout: TorqueLayout,
     stretches: Sequence[Stretch],
@@ -100,26 +126,26 @@ def select_causes(
         last = selected.best, selected.best.chosen
         noise = selected.noise
         noise, calm = noise.not_far_above(calm), noise if calm is None else calm.where_better(noise)
-        selected = _with_bodies(at_own_gain(chosen(rows, noise, block, space, last, selected)), how.rate)
+        selected = _that_can_be(at_own_gain(chosen(rows, noise, block, space, last, selected)), how.rate)
         finer = refined(selected, between)
         named.append(selected.best.candidates)
         if finer is None and (_at_rest(named) or number + 1 >= NOISE.rounds):
             break
-        model = estimated_model(layout, selected.coefficients)
+        model = replace(model_of(selected), turning=turning_of(selected))
         layout = finer or layout
     assert selected is not None
     return selected
 
 
-def _with_bodies(selected: SelectedCauses, rate: float) -> SelectedCauses:
-    """The selection without a load of ten free numbers that is no body: what it stands for competes in its place.
+def _that_can_be(selected: SelectedCauses, rate: float) -> SelectedCauses:
+    """The selection without loads that are no body and drives that only reversals tell: what they are competes instead.
 
-    It says all that its link can, at once. Struck out after all rounds, the link's own columns would not have moved to
-    where its centre is.
+    A load of ten free numbers says all that its link can, at once. Struck out after all rounds, the link's own columns
+    would not have moved to where its centre is, and friction would turn as late as torque did.
     """
     layout, best, competes = selected.rows.layout, selected.best, selected.space.candidates
     loads = [n for n in best.candidates if has_its_own_inertia(layout.placed[n])]
-    barred = frozenset(n for n in loads if sits_nowhere(selected, n))
+    barred = frozenset(n for n in loads if sits_nowhere(selected, n)) | told_by_reversals_alone(selected)
     if not barred:
         return selected
     barred |= {n for n, each in enumerate(competes) if not each.competes}
@@ -184,7 +210,6 @@ def chosen(
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
     best = offsets_for_cables(search, settled(search, named_first(search, best)), rows.layout.placed)
-    best = turned_where_not_late(search, best, rows.layout.placed)
     best = parted_where_they_differ(search, best, rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 

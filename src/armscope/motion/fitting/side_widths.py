@@ -30,8 +30,8 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 OfSpeed = Callable[[Signals], Array]
 """(N, c) columns at samples of one joint."""
-SIDES = [OWN_NAMES.index("coulomb"), OWN_NAMES.index("blunter")]
-"""Numbers of dry friction, and of how sharply it changes sides, among a joint's own columns."""
+SIDES = [OWN_NAMES.index("coulomb"), OWN_NAMES.index("rounder")]
+"""Numbers of dry friction, and of the time over which it changes sides, among a joint's own columns."""
 
 
 def widths_of_sides(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> Array | None:
@@ -76,9 +76,9 @@ class _Joint:
         fastest = float(np.percentile(np.abs(self.rows.dq[self.moving, self.j]), 95)) / LIBRARY.slow
         tried = [width for width in self.usual * np.array(FILTER.wider) if width <= fastest]
         sides = self.formed(functools.partial(_sides, width=self.sharp))
-        blunter = self.formed(functools.partial(_sides, width=self.usual))
+        usual = self.formed(functools.partial(_sides, width=self.usual))
         beside = [self.formed(law) for law in _laws(self.sharp, LIBRARY.slow * self.usual, LIBRARY.slow * fastest)]
-        beside += [blunter, self.apart(-np.gradient(modelled)[self.moving, None])]
+        beside += [usual, self.apart(-np.gradient(modelled)[self.moving, None])]
         least = min(self.cost(np.hstack([sides, each])) for each in (sides[:, :0], *beside))
         cost = {width: self.cost(self.formed(functools.partial(_sides, width=width))) for width in tried}
         best = min(cost, key=cost.__getitem__, default=self.sharp)

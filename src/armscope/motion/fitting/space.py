@@ -54,7 +54,7 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         Columns, priors, and what excludes what.
     """
     shares = PRIOR.inertial_shares
-    shape = torque[:, None] * [PRIOR.reversal, PRIOR.turning_s]
+    shape = torque[:, None] * [PRIOR.turning_s**2, PRIOR.turning_s]
     reversals = ToleranceFamily("reversals", layout.reversals.ravel(), shape.ravel(), PRIOR.reversal_sizes)
     families: list[BackgroundFamily] = [
         ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),

@@ -1,36 +1,25 @@
-"""How late a joint's torque is, by its slope: a number that a fit along the chord to a delay leaves open.
+"""How late a joint's torque is, by its slope, where friction of no joint has just changed sides.
 
-A delay's column is the chord: what the torque becomes that is late by so much, exactly there. Where dry friction is
-most of a joint's torque, how high its steps are at that delay says that the chord must be taken as a whole, and nothing
-of the delay itself: when friction changes sides has a number of its own (`layout.OWN_NAMES`). What the slope at the
-delay explains of what is left between the reversals is by how much it must move (Gauss-Newton, with every other column
-free within its prior).
-
-So is a joint's own chord: how high it is, is as much a matter of how that joint's friction changes sides. A chord that
-all joints have in common is no joint's friction, and stays as it is: between reversals it is the slope once more, and
-where both were free, a chord that is too short would ask for a slope that is too steep, without end.
+A delay's column is the chord: what the smooth part of the torque becomes that is late by so much, exactly there. What
+the slope at the delay explains of what is left where friction has settled is by how much it must move (Gauss-Newton,
+with every other column free within its prior).
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
-from scipy.ndimage import binary_closing
 
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
-from armscope.motion.fitting.rows import MotionRows
+from armscope.motion.fitting.near_reversals import settled_rows
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.library.layout import OWN
+from armscope.motion.library.catalogue import DELAY
 from armscope.motion.samples.constants import FILTER
 
 
 def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
     """By how much later than fitted a joint's torque is, or that of all joints.
-
-    Two things tell it of each joint: what is left between the moments at which friction changes sides, and these
-    moments, which lie as far from the delay as the prior of their own number has it.
 
     Args:
         selected: the selection.
@@ -49,10 +38,15 @@ def lag_step(selected: SelectedCauses, number: int) -> tuple[float, float]:
     return float(np.clip(step, -apart, apart)), float(information**-0.5)
 
 
+def values_of(selected: SelectedCauses, number: int) -> Array:
+    """(c,) a chosen cause's numbers, SI; a delay as it is where friction has settled, whatever reversals fit."""
+    values = selected.coefficients[selected.rows.layout.columns[number]]
+    is_late = selected.rows.layout.placed[number].cause is DELAY
+    return values + lag_step(selected, number)[0] if is_late else values
+
+
 def lag_of(selected: SelectedCauses, joint: int, number: int) -> tuple[float, float]:
     """By how much later than fitted one joint's torque is.
-
-    Of a joint without dry friction only what is left tells it, and of one that hardly moves nothing does.
 
     Args:
         selected: the selection.
@@ -63,17 +57,13 @@ def lag_of(selected: SelectedCauses, joint: int, number: int) -> tuple[float, fl
         Seconds, and how well that is known: one over its variance.
     """
     rows, best, scale = selected.rows, selected.best, selected.problem.scale
-    among = np.flatnonzero((selected.weights.row[:, joint] > 0) & _between_reversals(rows, joint))
+    among = np.flatnonzero((selected.weights.row[:, joint] > 0) & settled_rows(rows)[:, joint])
     unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
     root = np.sqrt(unit * selected.weights.row[among, joint])[:, None]
-    common = rows.layout.placed[number].common
-    others = ~np.isin(best.columns, rows.layout.columns[number] if common else [])
+    others = ~np.isin(best.columns, rows.layout.columns[number])
     X = root * columns_of(selected, joint, best.columns[others])[among] / scale[best.columns[others]]
     slope, left = root[:, 0] * _slope(selected, joint)[among], root[:, 0] * selected.residuals[among, joint]
-    step, information = _apart(X, 1 / best.variance[others], slope, left)
-    turning, unsure = _turning(selected, joint)
-    both = information + unsure**-2
-    return (information * step + turning / unsure**2) / both, both
+    return _apart(X, 1 / best.variance[others], slope, left)
 
 
 class Between:
@@ -110,20 +100,6 @@ class Between:
         return more[0] + (less[0] - more[0]) * more[1] / (more[1] - less[1])
 
 
-def _turning(selected: SelectedCauses, joint: int) -> tuple[float, float]:
-    """By how much later than the delay dry friction changes sides, s, and how far its prior lets it."""
-    layout, best = selected.rows.layout, selected.best
-    later = layout.reversals[joint, 1]
-    dry = abs(selected.coefficients[OWN * joint + 1] + np.nan_to_num(layout.arm.stated_background[joint, 1]))
-    place = np.flatnonzero(best.columns == later)
-    if dry <= 0:
-        return 0.0, np.inf
-    if not len(place):
-        return 0.0, PRIOR.turning_s
-    free = float(np.sqrt(best.variance[place[0]])) / selected.problem.scale[later]
-    return float(selected.coefficients[later] / dry), free / dry
-
-
 def _apart(X: Array, prior: Array, slope: Array, left: Array) -> tuple[float, float]:
     """(coefficient of the slope in what is left, its information) beside columns X (N, C) of a prior precision (C,)."""
     G = X.T @ X + np.diag(prior)
@@ -134,17 +110,6 @@ def _apart(X: Array, prior: Array, slope: Array, left: Array) -> tuple[float, fl
     if information <= FILTER.rounding * float(slope @ slope):
         return 0.0, 0.0
     return float(own @ left) / information, information
-
-
-def _between_reversals(rows: MotionRows, joint: int) -> NDArray[np.bool_]:
-    """(K,) where dry friction pulls one way: how exactly it changes sides is no matter of the delay.
-
-    The low-pass rings about such a moment, and passes zero there in single rows: those between two that turn turn, too.
-    """
-    (place,) = np.flatnonzero(rows.at[joint] == rows.layout.reversals[joint, 1])
-    size = np.abs(rows.columns[joint][:, place])
-    turning = size > FILTER.turning * size.max()
-    return np.asarray(~(turning | binary_closing(turning)))  # a closing forgets the first and the last row
 
 
 def _slope(selected: SelectedCauses, joint: int) -> Array:

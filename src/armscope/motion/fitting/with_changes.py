@@ -8,7 +8,7 @@ from dataclasses import replace
 from armscope.core.types import Progress
 from armscope.motion.fitting.load_changes import load_changes
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import estimated_model, select_causes
+from armscope.motion.fitting.selection import model_of, select_causes
 from armscope.motion.library.causes import Seen
 from armscope.motion.library.changes import place_changes
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -42,7 +42,7 @@ def with_changes(
     placed = [cause for change in changes for cause in place_changes(seen, change, stated.get(change.run, 0.0))]
     if not placed:
         return selected
-    model = estimated_model(layout, selected.coefficients)
+    model = model_of(selected)
     wider = replace(layout, placed=(*layout.placed, *placed))
     wider_selected = select_causes(wider, stretches, how, seen.runs, progress, model)
     chosen = {wider_selected.rows.layout.placed[number].cause for number in wider_selected.best.candidates}

@@ -94,11 +94,14 @@ class Moment:
     read: Array | None = None
 
     @functools.cached_property
+    def without_dry(self) -> Array:
+        """(N, m) what is predicted of all joints but for dry friction, where it is known how that turned."""
+        return self.predicted if self.dry is None else self.dry.without(self.signals, self.predicted)
+
+    @functools.cached_property
     def path(self) -> BSpline:
-        """Of what is predicted of all joints over time, but for dry friction, where it is known how that turned."""
-        if self.dry is not None:
-            return self.dry.path(self.signals, self.predicted)
-        return make_interp_spline(self.signals.time, self.predicted, k=3)
+        """Of the same over time."""
+        return make_interp_spline(self.signals.time, self.without_dry, k=3)
 
     @functools.cached_property
     def slopes(self) -> tuple[Array, Array, Array]:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
-from armscope.motion.library.sides import blunt_width, sharp_width, side
+from armscope.motion.library.sides import sharp_width, side
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.dynamics import MovingArm
 
@@ -62,27 +62,11 @@ class DryFriction:
         width = sharp_width(arm) if width is None else width
         return cls(torque, width, np.broadcast_to(np.asarray(turning, dtype=float), torque.shape))
 
-    def side(self, signals: Signals, joint: int, delay: float = 0.0, width: float | None = None) -> Array:
-        """(N,) side of a joint's friction, -1 ... 1, some time ago.
-
-        The joint's motion of that time is taken, and friction changes sides between samples where that does: a
-        straight line, or a spline, between sides that are already means over samples blurs the moment.
-
-        Args:
-            signals: N samples.
-            joint: from 0.
-            delay: s ago.
-            width: rad/s (m/s), where it is not its own.
-
-        Returns:
-            The sides.
-        """
-        dq, ddq = signals.dq[:, joint], signals.ddq[:, joint]
-        if delay:
-            dq, ddq = signals.some_time_ago(joint, delay)
-        dq = dq - ddq * self.turning[joint]
-        at = replace(signals, dq=dq[:, None], ddq=ddq[:, None])
-        return side(at, np.array([self.width[joint] if width is None else width]))[:, 0]
+    def side(self, signals: Signals, joint: int) -> Array:
+        """(N,) side of a joint's friction, -1 ... 1."""
+        before = motion_before(signals, self.turning)
+        own = replace(before, dq=before.dq[:, [joint]], ddq=before.ddq[:, [joint]])
+        return side(own, self.width[[joint]])[:, 0]
 
     def without(self, signals: Signals, torque: Array) -> Array:
         """(N, m) torques without their dry friction: what is smooth of them.
@@ -94,27 +78,7 @@ class DryFriction:
         Returns:
             Torque, N m (N).
         """
-        turned = replace(signals, dq=signals.dq - signals.ddq * self.turning)
-        return np.asarray(torque - self.torque * side(turned, self.width))
-
-    def path(self, signals: Signals, torque: Array) -> BSpline:
-        """Over time, what is smooth of torques (N, m) with dry friction: a cubic spline of all joints."""
-        return make_interp_spline(signals.time, self.without(signals, torque), k=3)
-
-    def delayed(self, signals: Signals, path: BSpline, joint: int, delay: float) -> Array:
-        """(N,) a joint's torque of some time ago: what is smooth by a spline, and its dry friction exactly.
-
-        Args:
-            signals: N samples.
-            path: of torques without dry friction.
-            joint: from 0.
-            delay: s ago.
-
-        Returns:
-            Torque, N m (N).
-        """
-        before = self.torque[joint] * self.side(signals, joint, delay)
-        return np.asarray(seen_later(signals.time, path, joint, delay) + before)
+        return np.asarray(torque - self.torque * side(motion_before(signals, self.turning), self.width))
 
     def rounded(self, signals: Signals, torque: Array, delay: Array, rate: float) -> Array:
         """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
@@ -140,15 +104,27 @@ class DryFriction:
         return np.asarray(np.gradient(np.gradient(smooth, 1 / rate, axis=0), 1 / rate, axis=0))
 
 
-def own_columns(
-    arm: MovingArm, signals: Signals, delay: Array, turning: Array | float = 0.0, width: Array | None = None
-) -> Array:
+def motion_before(signals: Signals, ago: Array) -> Signals:
+    """Samples with velocities and accelerations of some time ago, (m,) s.
+
+    Friction that was seen later changes sides between samples where that motion did: a straight line, or a spline,
+    between sides that are already means over samples blurs the moment.
+    """
+    late = np.flatnonzero(ago)
+    if not len(late):
+        return signals
+    dq, ddq = signals.dq.copy(), signals.ddq.copy()
+    for j in map(int, late):
+        dq[:, j], ddq[:, j] = signals.some_time_ago(j, ago[j])
+    return replace(signals, dq=dq, ddq=ddq)
+
+
+def own_columns(arm: MovingArm, signals: Signals, turning: Array | float = 0.0, width: Array | None = None) -> Array:
     """What every joint has, per unit of each.
 
     Args:
         arm: the arm.
         signals: N samples.
-        delay: (m,) s by which torques are late: how friction changes sides is seen later by as much.
         turning: (m,) s by which friction changes sides later than the speed.
         width: (m,) rad/s (m/s) within which it changes sides; as sharp as fits take it to be where not given.
 
@@ -156,15 +132,26 @@ def own_columns(
         (N, m, 6) of `layout.OWN_NAMES`.
     """
     width = sharp_width(arm) if width is None else width
-    blunter = blunt_width(arm, width)
-    at = replace(signals, dq=signals.dq - signals.ddq * turning)
-    turned = side(at, width)
-    before, blunt = turned, side(at, blunter)
-    late = np.flatnonzero(delay)
-    if len(late):
-        dry, before = DryFriction.of(arm, np.ones(arm.n_motors), turning, width), turned.copy()
-        for j in map(int, late):
-            before[:, j] = dry.side(signals, j, delay[j])
-            blunt[:, j] = dry.side(signals, j, delay[j], blunter[j])
-    later = -np.gradient(before, signals.period, axis=0)
-    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunt - before, later], axis=2)
+    turned = side(motion_before(signals, np.broadcast_to(np.asarray(turning, dtype=float), (arm.n_motors,))), width)
+    slope = np.gradient(turned, signals.period, axis=0)
+    rounder = np.gradient(slope, signals.period, axis=0)
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, rounder, -slope], axis=2)
+
+
+def rounded_off(sides: Array, over: Array, period: float) -> Array:
+    """(N, m) sides that each joint's friction changes over some time, (m,) s: as a standard deviation, normal.
+
+    Args:
+        sides: (N, m), sharp.
+        over: (m,) s; 0 leaves them sharp.
+        period: between samples, s.
+
+    Returns:
+        The sides.
+    """
+    from scipy.ndimage import gaussian_filter1d  # takes long to import
+
+    found = sides.copy()
+    for j in np.flatnonzero(over):
+        found[:, j] = gaussian_filter1d(sides[:, j], over[j] / period, mode="nearest")
+    return found

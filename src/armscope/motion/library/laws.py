@@ -18,7 +18,7 @@ from armscope.motion.library.clinging import smooth_torque, taken_along
 from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_while, tool_load_for_a_while
 from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
-from armscope.motion.library.read_late import delayed, low_passed
+from armscope.motion.library.read_late import delayed
 from armscope.motion.library.sides import side
 from armscope.motion.library.warmth import RUNNING, warm, warmth, while_running
 from armscope.motion.library.waves import wave
@@ -170,8 +170,7 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 
 
 CLINGING = ("clinging over torques", "clinging over smooth torques")
-READ_LATE = ("delayed torque", "low-passed torque")
-FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", *READ_LATE, *CLINGING})
+FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", "delayed torque", *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
@@ -262,7 +261,6 @@ LAWS: dict[str, Callable[..., Array]] = {
     RUNNING[1]: _over_time(_side, while_running),
     "torque": _read,
     "delayed torque": delayed,
-    "low-passed torque": low_passed,
     "powers of torque": _powers_of_torque,
     "clinging over ways": lambda m, joints, *ways: taken_along(m.signals.q[:, joints[0]], ways),
     "clinging over torques": lambda m, joints, *widths: taken_along(m.predicted[:, joints[0]], widths),

@@ -16,15 +16,17 @@ from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.robot.dynamics import MovingArm
 
 NAMED_OF_OWN = ("offset", "coulomb", "viscous", "inertia")
-OWN_NAMES = (*NAMED_OF_OWN, "blunter", "later")
+OWN_NAMES = (*NAMED_OF_OWN, "rounder", "later")
 """Columns that every joint has: offset, dry and viscous friction, rotor inertia, how friction changes sides, and when.
 
-The last two are no causes: within a hundredth of a radian per second and some milliseconds friction turns over in a
-way that presliding, filters and rounding blur. They are free within limits, so that no cause is named for them, and
+The last two are no causes: friction turns over some milliseconds later than the speed, and over some milliseconds, in
+a way that presliding, filters and sampling make. They are free within limits, so that no cause is named for them, and
 so that no other number of the joint takes them up: a delay of all torque in their place takes viscous friction, times
-its seconds, from the rotor's inertia.
+its seconds, from the rotor's inertia. A step that something rounds off is, beyond its delay, half the variance of that
+over time, times the second derivative; so whatever rounds it off, these two say it to the second order.
 """
 OWN, CAUSES_OF_OWN = len(OWN_NAMES), len(NAMED_OF_OWN)
+DRY, ROUNDER, LATER = (OWN_NAMES.index(name) for name in ("coulomb", "rounder", "later"))
 
 
 @dataclass(frozen=True, eq=False)

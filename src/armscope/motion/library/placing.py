@@ -19,7 +19,6 @@ from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.powers import with_power
-from armscope.motion.library.read_late import LATE_BY_ORDER
 from armscope.motion.library.sides import coulomb_width, sharp_width
 from armscope.motion.library.warmth import RUNNING
 from armscope.robot.dynamics import MovingArm
@@ -59,9 +58,7 @@ def _at_joint(seen: Seen, j: int) -> Iterator[PlacedCause]:
         yield from _friction(at)
         yield from _warming(at)
     yield at.cause(catalogue.GAIN, "torque", (("gain", ""),), "torque")
-    for delay in LIBRARY.delays_s:
-        how = {"variant": f"{delay:.3g} s", "multiplicity": len(LIBRARY.delays_s)}
-        yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", delay, **how)
+    yield at.cause(catalogue.DELAY, "torque", (("delay", "s"),), "delayed torque", LIBRARY.delay_s)
     if seen.both_sides is None or not seen.both_sides[j]:
         yield _drive(at)  # where the link is recorded, its bodies move as it does
     yield from _outside(at)
@@ -76,15 +73,9 @@ def _one_clock(moving: list[int]) -> list[PlacedCause]:
     """One delay of all torques: they are read by another clock than the motion, or through one filter."""
     if len(moving) < LIBRARY.joints_of_a_clock:
         return []
-    joints, names = tuple(moving), (("delay", "s"),)
-    laws = {f"{delay:.3g} s": Law("delayed torque", joints, (delay,)) for delay in LIBRARY.delays_s}
-    for order in LATE_BY_ORDER:
-        named = {f"{delay:.3g} s, order {order}": (order, delay) for delay in LIBRARY.delays_s}
-        laws |= {variant: Law("low-passed torque", joints, numbers) for variant, numbers in named.items()}
-    return [
-        PlacedCause(catalogue.DELAY, ALL_JOINTS, "torque", names, joints, law, variant=variant, multiplicity=len(laws))
-        for variant, law in laws.items()
-    ]
+    joints = tuple(moving)
+    law = Law("delayed torque", joints, (LIBRARY.delay_s,))
+    return [PlacedCause(catalogue.DELAY, ALL_JOINTS, "torque", (("delay", "s"),), joints, law)]
 
 
 def _sides(seen: Seen) -> Array:

@@ -15,7 +15,7 @@ from armscope.inference.shapley import shares
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement_of
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import estimated_model
+from armscope.motion.fitting.selection import model_of
 from armscope.motion.library.causes import PlacedCause, Seen
 from armscope.motion.library.twist_catalogue import ELASTICITY, NAMELESS
 from armscope.motion.links.twist import SelectedTwist, select_twists, twist_rows
@@ -66,7 +66,7 @@ def judged_twists(
     Returns:
         Joint by joint; none of a table without such links.
     """
-    model = estimated_model(selected.rows.layout, selected.coefficients)
+    model = model_of(selected)
     runs = tuple(dict.fromkeys(stretch.run for stretch in stretches))
     found = []
     for rows in twist_rows(seen, stretches, how, model):

@@ -11,8 +11,8 @@ from armscope.motion.model.constants import MODEL_FILE
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import InertialName
 
-Format = Literal["armscope motion model 1"]
-FORMAT: Format = "armscope motion model 1"
+Format = Literal["armscope motion model 2"]
+FORMAT: Format = "armscope motion model 2"
 Word = Annotated[str, Field(max_length=500)]
 Number = Annotated[float, Field(ge=-MODEL_FILE.largest, le=MODEL_FILE.largest)]
 Positive = Annotated[float, Field(gt=0, le=MODEL_FILE.largest)]
@@ -32,8 +32,9 @@ class PreparationFile(Strict):
 class JointFile(Strict):
     """Friction and rotor of one motor, SI: torque = offset + coulomb side(dq) + viscous dq + inertia ddq.
 
-    ``blunter``, ``later``: how friction changes sides (N m), and when (N m s); ``gain``: share by which recorded
-    torque is too large; ``width``: speed within which friction changes sides, rad/s (m/s), where the motion says so.
+    ``rounder``, ``later``: over how long friction changes sides (N m s^2), and when (N m s); ``gain``: share by which
+    recorded torque is too large; ``width``: speed within which friction changes sides, rad/s (m/s), where the motion
+    says so.
     """
 
     joint: Word
@@ -41,7 +42,7 @@ class JointFile(Strict):
     coulomb: Number
     viscous: Number
     inertia: Number
-    blunter: Number
+    rounder: Number
     later: Number
     gain: Number
     width: Positive | None = None

@@ -14,9 +14,9 @@ from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
-from armscope.motion.library.dry_friction import DryFriction, own_columns
+from armscope.motion.library.dry_friction import DryFriction, own_columns, rounded_off
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
-from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
+from armscope.motion.library.layout import CAUSES_OF_OWN, DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.model.link_motion import beside_motor, following, moment_of_links
@@ -95,8 +95,9 @@ class MotionModel:
         if signals.payload is not None:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
-        joints, turning = self._turning()
-        own = own_columns(self.arm, signals, followed.delay, turning, self._width())
+        joints, turning, over = self._turning()
+        own = own_columns(self.arm, signals, turning, self._width())
+        own[:, :, ROUNDER] = rounded_off(own[:, :, DRY], over, signals.period) - own[:, :, DRY]
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
         rigid = regressor @ followed.inertial_in(signals.run) + carried + followed.carried(signals, bodies)
         friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
@@ -128,17 +129,20 @@ class MotionModel:
             found[:, j] = signals.q[:, j] + beside
         return found
 
-    def _turning(self) -> tuple[Array, Array]:
-        """(m, 6) the joints' numbers without, and (m,) s, by how much later than its speed dry friction changes sides.
+    def _turning(self) -> tuple[Array, Array, Array]:
+        """(m, 6) the joints' numbers; (m,) s by how much later than speed dry friction changes sides; over how long.
 
-        Fits hold that as friction's slope over time, which is the shift only as long as the low-pass rounds more off.
-        What is beyond the longest shift that is believed is left out: not low-passed, it is a spike at each reversal.
+        Fits hold these as derivatives of friction over time, which is the same only as long as the low-pass rounds more
+        off: not low-passed, they are spikes at each reversal. Here friction is shifted and rounded off itself, by no
+        more than is believed; where it would be sharper than sharp, it is not.
         """
-        joints, most = self.joints.copy(), PRIOR.reversal_sizes[-1] * PRIOR.turning_s
-        dry, later = joints[:, 1], joints[:, 5]
-        turning = np.where(dry > 0, np.clip(later / np.where(dry > 0, dry, 1.0), -most, most), 0.0)
-        joints[:, 5] = 0.0
-        return joints, turning
+        joints, most = self.joints.copy(), PRIOR.longest_turning_s
+        dry = joints[:, DRY]
+        per_dry = np.where(dry > 0, 1 / np.where(dry > 0, dry, 1.0), 0.0)
+        turning = np.clip(joints[:, LATER] * per_dry, -most, most)
+        over = np.minimum(np.sqrt(np.maximum(2 * joints[:, ROUNDER] * per_dry, 0.0)), most)
+        joints[:, ROUNDER], joints[:, LATER] = dry, 0.0
+        return joints, turning, over
 
     def _width(self) -> Array:
         """(m,) rad/s (m/s) within which friction changes sides: from rest on sharply, but where the motion says how."""
@@ -161,7 +165,7 @@ def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
 def fitted_model(
     layout: TorqueLayout,
     coefficients: Array,
-    chosen: Sequence[tuple[int, Array]],
+    chosen: Sequence[tuple[int, Array, Array]],
     how: Preparation,
     links: tuple[FittedCause, ...] = (),
 ) -> MotionModel:
@@ -170,7 +174,7 @@ def fitted_model(
     Args:
         layout: of the columns.
         coefficients: (p,) of all columns, SI.
-        chosen: number of each chosen cause, and the covariance of its parameters.
+        chosen: number of each chosen cause, its parameters, and their covariance.
         how: filters and decimation.
         links: what was found of links beside their motors.
 
@@ -179,7 +183,7 @@ def fitted_model(
     """
     arm = layout.arm
     stated = np.column_stack([np.nan_to_num(arm.stated_background), np.zeros((arm.n_motors, OWN - CAUSES_OF_OWN))])
-    named = {int(column) for number, _ in chosen for column in layout.columns[number]}
+    named = {int(column) for number, *_ in chosen for column in layout.columns[number]}
     heavier = [int(column) for column in layout.link_masses[0] if int(column) not in named]
     made, shares = layout.made_of_masses
     in_proportion = shares @ np.where(np.isin(made, heavier), coefficients[made], 0.0)
@@ -190,10 +194,7 @@ def fitted_model(
         joints=stated + coefficients[layout.own].reshape(-1, OWN),
         inertial=arm.inertial + layout.inertial_scale * (coefficients[layout.inertial] + in_proportion),
         gains=coefficients[layout.gains] if len(layout.gains) else np.zeros(arm.n_motors),
-        causes=tuple(
-            FittedCause(layout.placed[number], coefficients[layout.columns[number]], covariance)
-            for number, covariance in chosen
-        ),
+        causes=tuple(FittedCause(layout.placed[number], values, covariance) for number, values, covariance in chosen),
         response=float(coefficients[layout.response][0]),
         links=links,
         width_of_sides=layout.width_of_sides,

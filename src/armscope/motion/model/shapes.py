@@ -28,7 +28,7 @@ def friction_over_speed(model: MotionModel, joint: int, speed: Array) -> Array:
         (N,) N m or N.
     """
     moment = everything_is(speed, model.arm.n_motors)
-    own = own_columns(model.arm, moment.signals, np.zeros(model.arm.n_motors), width=model.width_of_sides)[:, joint]
+    own = own_columns(model.arm, moment.signals, width=model.width_of_sides)[:, joint]
     total = own[:, [1, 2, 4]] @ model.joints[joint, [1, 2, 4]]
     for cause in model.causes:
         law = cause.placed.columns

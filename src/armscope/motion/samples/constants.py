@@ -111,9 +111,6 @@ class FilterRules(Constants):
         "judgement: grease and preloaded slides; wider is a curve of friction over speed",
         unit="widths",
     )
-    blunter: float = constant(
-        2.0, "that friction may change sides less sharply than within the chosen width", "derived: a step of `wider`"
-    )
     sharper_at_rest: float = constant(
         5.0,
         "more sharply still, where torque is predicted: fits leave joints out that stand, predictions begin with them",

@@ -24,18 +24,6 @@ class PlausibleRules(Constants):
         "derived: from that speed one way to it the other way are then two",
         unit="samples",
     )
-    settled_s: float = constant(
-        0.1,
-        "since a joint turned back, and until it does, from which its friction has long changed sides",
-        "judgement: friction that clings does so for 10 to 20 ms, the low-pass of rows for 20 to 80 more",
-        unit="s",
-    )
-    settled_way: float = constant(
-        0.01,
-        "of a joint's travel that it must be from there, too",
-        "judgement: some milliradians of presliding, of a radian",
-        unit="1",
-    )
     poses: int = constant(200, "in which a link's inertia is looked at", "judgement: it changes slowly", unit="rows")
 
 

@@ -142,9 +142,8 @@ def covariance_of(selected: SelectedCauses, number: int, factor: Array) -> Array
     columns = selected.rows.layout.columns[number]
     by = factor[columns] / selected.problem.scale[columns]
     covariance = np.asarray(selected.best.covariance(columns) * np.outer(by, by))
-    if selected.rows.layout.placed[number].cause is catalogue.DELAY:  # its column alone tells how high the chord is
-        step, unsure = lag_step(selected, number)
-        covariance[0, 0] += step**2 + (factor[columns[0]] * unsure) ** 2
+    if selected.rows.layout.placed[number].cause is catalogue.DELAY:  # told where friction has settled alone
+        covariance[0, 0] = (factor[columns[0]] * lag_step(selected, number)[1]) ** 2
     return covariance
 
 

@@ -12,6 +12,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.library.causes import PlacedCause
 from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
@@ -107,8 +108,8 @@ def cause_parameters(selected: SelectedCauses, number: int, factor: Array) -> tu
     Returns:
         Those that were fitted, then those that were scanned, in the units of files.
     """
-    placed, columns = selected.rows.layout.placed[number], selected.rows.layout.columns[number]
-    values, (stderr, of_scanned) = selected.coefficients[columns], errors_of(selected, number, factor)
+    placed = selected.rows.layout.placed[number]
+    values, (stderr, of_scanned) = values_of(selected, number), errors_of(selected, number, factor)
     told = [
         Parameter(name, unit, float(value), float(error))
         for (name, unit), value, error in zip(placed.parameters, values, stderr, strict=True)
@@ -221,7 +222,7 @@ def headline(
         doubt = "Cannot tell what is missing: nothing that was found helps on motion that took no part"
         return f"{doubt}. The reading that fits best: {clause(told[0])}. {errors.words()}"
     causes = "; ".join(
-        f"{clause(c)} – {percent(c.share)}{of_what[n]}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
+        f"{clause(c)}{_worth(c.share, of_what[n])}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
     unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}"
     if masses_lead(found, errors):
@@ -257,4 +258,9 @@ def _further(causes: Sequence[FoundCause]) -> str:
     kinds = {UNKNOWN: "torque without a known law"}
     told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
     count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
-    return f"{capitalised(count)}: {', '.join(told)} – {percent(sum(c.share for c in causes))}. "
+    return f"{capitalised(count)}: {', '.join(told)}{_worth(sum(c.share for c in causes))}. "
+
+
+def _worth(share: float, of_what: str = "") -> str:
+    """A share in a sentence; of what only hides part of what others do, nothing."""
+    return f" – {percent(share)}{of_what}" if share > 0 else ""

@@ -12,7 +12,6 @@ from armscope.core.numerals import rounded
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
-from armscope.motion.library.layout import OWN
 from armscope.motion.summary.intervals import Sureness, level_of_gains
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
@@ -33,10 +32,10 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
     named = {joint for delay in delays for joint in delay.joints}
     told, level = [], level_of_gains(layout)
     for j, column in enumerate(layout.reversals[:, 1]):
-        dry = selected.coefficients[OWN * j + 1] + np.nan_to_num(layout.arm.stated_background[j, 1])
+        dry = selected.dry[j]
         if j in named or dry <= 0 or column not in best.columns:
             continue
-        slope = selected.coefficients[column]
+        slope = selected.told[column]
         error = float(np.sqrt(best.variances(np.array([column]))[0])) / selected.problem.scale[column]
         apart = np.sqrt(max((sure.factor[column] * error) ** 2 - (level * slope) ** 2, error**2))
         late, unsure = slope / dry, INTERVAL * apart / dry

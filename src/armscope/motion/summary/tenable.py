@@ -19,9 +19,10 @@ from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.constants import CONSISTENCY, PRIOR
 from armscope.motion.fitting.consistency import agreement
+from armscope.motion.fitting.near_reversals import told_by_reversals_alone
 from armscope.motion.fitting.refining import is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import at_own_gain, chosen, settled
+from armscope.motion.fitting.selection import at_own_gain, chosen, named_first, settled
 from armscope.motion.fitting.space import build_space, without_backgrounds
 from armscope.motion.library import catalogue
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -32,7 +33,6 @@ from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.in_proportion import rather_in_proportion
-from armscope.motion.summary.near_reversals import told_by_reversals_alone
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
 from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -48,7 +48,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     Returns:
         A selection, all of whose names can stand.
     """
-    barred: frozenset[int] = frozenset()
+    barred = frozenset(n for n, each in enumerate(selected.space.candidates) if not each.competes)
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
     selected, without = with_backgrounds_that_foretell(selected)
     for number in itertools.count():  # ends: from some round on names only go
@@ -79,10 +79,13 @@ def _alike(layout: TorqueLayout, wrong: frozenset[int]) -> frozenset[int]:
 
 
 def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> SelectedCauses:
-    """What was kept and is still worth its price, with nothing in the place of what was struck out."""
+    """What was kept and is still worth its price, with nothing in the place of what was struck out.
+
+    Beside it a curve may be worth its price that says more than a name; where most of it is one, it has that name now.
+    """
     search = Search.on(selected.problem)
     best = search.with_best_sizes(search.evaluated(kept, selected.best))
-    return replace(selected, best=settled(search, best))
+    return replace(selected, best=settled(search, named_first(search, settled(search, best))))
 
 
 def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:

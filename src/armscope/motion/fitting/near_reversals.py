@@ -7,44 +7,45 @@ step a little fits that.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.motion.constants import CONSISTENCY
+from armscope.motion.constants import SETTLED
 from armscope.motion.fitting.consistency import factor_in
 from armscope.motion.fitting.rows import MotionRows, StatedSamples
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.sums import sums_by_joint
 from armscope.motion.fitting.weights import weighed
 from armscope.motion.library import catalogue
-from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 AT_ALL_TIMES = (catalogue.DELAY, catalogue.COMPLIANCE)
 
 
-def told_by_reversals_alone(selected: SelectedCauses) -> Iterator[int]:
-    """Numbers of the names that act at all times and are not worth their price where no joint has just turned back.
+def told_by_reversals_alone(selected: SelectedCauses) -> frozenset[int]:
+    """Names that act at all times and are not worth their price where no joint has just turned back.
 
     Args:
         selected: the selection.
 
-    Yields:
-        Those that are not told there, or told to be another size.
+    Returns:
+        Their numbers, and those of the same at the same joints by another law.
     """
-    numbers = [n for n in selected.best.candidates if selected.rows.layout.placed[n].cause in AT_ALL_TIMES]
+    placed = selected.rows.layout.placed
+    numbers = [n for n in selected.best.candidates if placed[n].cause in AT_ALL_TIMES]
     if not numbers:
-        return
+        return frozenset()
     away = settled_rows(selected.rows)
     row, one_block = selected.weights.row * away, np.zeros(len(selected.rows), dtype=np.intp)
     sums = weighed(selected.rows, sums_by_joint(selected.rows, row, one_block)[0], selected.weights)
-    for number in numbers:
-        size, error = factor_in(selected, number, sums)
-        alike = abs(size - 1) < CONSISTENCY.widths * max(error, CONSISTENCY.tolerance)
-        if not alike or size <= 0 or (size / error) ** 2 / 2 < INDISTINGUISHABLE_NATS:
-            yield number
+    found = {number: factor_in(selected, number, sums) for number in numbers}
+    wrong = [n for n, each in found.items() if not _told(*each)]
+    places = {(placed[n].cause.name, placed[n].joints) for n in wrong}
+    return frozenset(n for n, each in enumerate(placed) if (each.cause.name, each.joints) in places)
+
+
+def _told(size: float, error: float) -> bool:
+    return size > 0 and (size / error) ** 2 / 2 >= INDISTINGUISHABLE_NATS
 
 
 def settled_rows(rows: MotionRows) -> NDArray[np.bool_]:
@@ -70,5 +71,5 @@ def _turning(samples: StatedSamples, joint: int, travel: float) -> NDArray[np.bo
     after = np.searchsorted(signals.time[at], time)
     for each in (np.maximum(after - 1, 0), np.minimum(after, len(at) - 1)):
         apart, way = np.abs(time - signals.time[at][each]), np.abs(q - signals.q[at, joint][each])
-        near |= (apart < PLAUSIBLE.settled_s) | (way < PLAUSIBLE.settled_way * travel)
+        near |= (apart < SETTLED.seconds) | (way < SETTLED.way * travel)
     return near

@@ -7,25 +7,12 @@ import functools
 import numpy as np
 import pytest
 
-from armscope.core.types import Array
+from armscope.motion.constants import SETTLED
+from armscope.motion.fitting.near_reversals import AT_ALL_TIMES, settled_rows, told_by_reversals_alone
 from armscope.motion.library import catalogue
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
-from armscope.motion.summary.constants import PLAUSIBLE
-from armscope.motion.summary.near_reversals import AT_ALL_TIMES, settled_rows, told_by_reversals_alone
 from armscope.recordings.motions import as_motions
-from tests.motion.moving import COULOMB, behind_its_drive, moved, robot
-
-WAY = 1.5e-3
-"""Over which friction takes hold, rad: ten times a stiff gear's, as these arms turn slowly."""
-
-
-def presliding(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
-    """What friction of every joint lacks after each reversal (Dahl 1968)."""
-    held = np.sign(dq).copy()
-    for row in range(1, len(q)):
-        step = q[row] - q[row - 1]
-        held[row] = np.sign(step) + (held[row - 1] - np.sign(step)) * np.exp(-np.abs(step) / WAY)
-    return 4 * COULOMB * (held - np.sign(dq)) + 3 * COULOMB * np.sign(dq)
+from tests.motion.moving import behind_its_drive, moved, presliding, robot
 
 
 @functools.cache
@@ -46,7 +33,7 @@ def test_rows_near_a_reversal_are_not_settled() -> None:
             for row in np.flatnonzero(own):
                 if np.any((before < rows.time[row]) & (rows.time[row] < after)):
                     assert not settled[row, j]
-            far = np.min(np.abs(rows.time[own][:, None] - before), axis=1) > 3 * PLAUSIBLE.settled_s
+            far = np.min(np.abs(rows.time[own][:, None] - before), axis=1) > 3 * SETTLED.seconds
             away = np.abs(rows.q[own, j][:, None] - signals.q[turned, j]).min(axis=1) > 0.02 * np.ptp(rows.q[:, j])
             assert settled[own, j][far & away].all()
 
@@ -65,4 +52,4 @@ def test_a_soft_drive_is_told_where_no_joint_turns_back(seed: int) -> None:
     selected = diagnose_motion(robot(), motions).selected
     names = {selected.rows.layout.placed[n].cause for n in selected.best.candidates}
     assert catalogue.COMPLIANCE in names
-    assert not list(told_by_reversals_alone(selected))
+    assert not told_by_reversals_alone(selected)
