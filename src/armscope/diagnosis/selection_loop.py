@@ -231,8 +231,8 @@ class SelectionLoop:
 
     def _summed(self, together: NormalEquations) -> SummedRows:
         """A long table with its sums, where its fits start; where it is very long, they pass over its rows once."""
-        known = self.table, self.space.layout, self.point, together
-        return SummedRows.few(*known) if self.table.keeps else SummedRows.of(*known, LOOP.rows_of_a_group)
+        few, known = len(self.table) <= STEPS.kept_rows, (self.table, self.space.layout, self.point, together)
+        return SummedRows.few(*known) if few else SummedRows.of(*known, LOOP.rows_of_a_group)
 
     def earned(self, finer: bool = False) -> Selected:
         """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say.
