@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose, pipeline, selection, selection_loop
-from armscope.fitting import refit, summed_rows
+from armscope.fitting import model_fit, refit, summed_rows
 from armscope.fitting.constants import STEPS
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -42,7 +42,7 @@ def verdicts() -> tuple[Diagnosis, Diagnosis, int]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(selection, "LOOP", replace(selection.LOOP, sample_rows=150))
         exact = diagnose(arm, table, QUICK)
-        short = replace(STEPS, kept_rows=400, telling_rows=150)
+        short = replace(STEPS, quickly_passed=300, kept_rows=400, telling_rows=150)
         for module in (pipeline, selection_loop, summed_rows):
             patch.setattr(module, "STEPS", short)
         patch.setattr(refit, "SummedFit", lambda *given: fits.append(given) or summed_rows.SummedFit(*given))
@@ -53,6 +53,23 @@ def verdicts() -> tuple[Diagnosis, Diagnosis, int]:
 def test_the_verdict_is_that_of_passes_over_all_rows(verdicts: tuple[Diagnosis, Diagnosis, int]) -> None:
     exact, of_sums, fits = verdicts
     assert fits
+    assert_alike(exact, of_sums)
+
+
+@pytest.mark.long
+def test_the_verdict_on_a_table_that_is_passed_over_once_the_names_are_known_is_the_same(
+    verdicts: tuple[Diagnosis, Diagnosis, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    exact, _, _ = verdicts
+    arm, table = recordings()
+    monkeypatch.setattr(selection, "LOOP", replace(selection.LOOP, sample_rows=150))
+    for module in (selection_loop, refit, model_fit):
+        monkeypatch.setattr(module, "STEPS", replace(STEPS, quickly_passed=300))
+    assert_alike(exact, diagnose(arm, table, QUICK))
+
+
+def assert_alike(exact: Diagnosis, of_sums: Diagnosis) -> None:
+    """The same names; values by a tenth of a standard error."""
     names = [{(each.effect, each.location) for each in verdict.effects} for verdict in (exact, of_sums)]
     assert names[0] == names[1]
     assert ("joint_compliance", "joint 2") in names[0]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block, slope_at
 from armscope.fitting.constants import STEPS
 from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import LinearisedTable, point_residuals
@@ -45,3 +45,20 @@ def test_sums_are_the_products_of_the_columns_block_by_block(chunk_rows: int, mo
             b, yy = np.einsum("nik,ni->k", weighted, y[at]), np.sum(weight[at, None] * y[at] ** 2)
             assert np.abs((sums.b - b) / np.sqrt(np.diag(G) * yy + 1e-300)).max() < 1e-9
             assert sums.yy == pytest.approx(yy)
+
+
+def test_the_slope_about_known_products_gives_the_same_sums() -> None:
+    rng = np.random.default_rng(2)
+    model, rows = model_with_everything("six-axis", 5), full_table(arm_named("six-axis"), ROWS, 5)
+    table = replace(rows, positions=predict(model, rows) + rng.normal(0, 1e-3, (ROWS, 3)), orientation=None)
+    placed = [part.placed for part in model.parts]
+    layout = parameter_layout(free_frames(table, False), [[p.placed for p in model.background]], placed)
+    weight, at = rng.uniform(0.1, 1, ROWS), current_parameters(layout, model)
+    weights = RowWeights.of_positions(weight)
+    (whole,) = normal_equations_by_block(layout, model, table, weights, np.zeros(ROWS, dtype=np.intp))
+    slope = slope_at(layout, model, table, weights)
+    assert slope.left == pytest.approx(np.sum(weight[:, None] * point_residuals(model, table) ** 2))
+    again = slope.about(whole.G, at)
+    scale = np.sqrt(np.diag(whole.G) * whole.yy) + 1e-300
+    assert np.abs((again.b - whole.b) / scale).max() < 1e-9
+    assert (again.yy, again.n) == pytest.approx((whole.yy, whole.n))

@@ -53,6 +53,8 @@ def test_products_of_columns_are_those_of_the_columns_written_out(
     np.testing.assert_allclose(column_order.whole(total), X @ X.T, atol=1e-12 * size)
     y = np.random.default_rng(1).normal(size=(posture.width, ROWS))
     np.testing.assert_allclose(stack.rmatvec(y)[column_order.back], X @ y.reshape(-1), atol=1e-12 * size)
+    both = stack.with_responses(np.stack([y, y**2]))[column_order.back]
+    np.testing.assert_allclose(both, X @ np.stack([y, y**2]).reshape(2, -1).T, atol=1e-12 * size)
     values = np.random.default_rng(2).normal(size=(2, len(terms)))
     combined = stack.matvec(values[:, column_order.order])
     np.testing.assert_allclose(combined.reshape(2, -1), values @ X, atol=1e-12 * size)

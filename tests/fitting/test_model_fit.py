@@ -38,5 +38,5 @@ def ends_after(moves: list[float], rows: int) -> int:
 def test_a_fit_of_a_long_table_ends_where_the_next_step_is_foretold_to_be_nothing(
     moves: list[float], short: int, long: int
 ) -> None:
-    assert ends_after(moves, STEPS.kept_rows) == short
-    assert ends_after(moves, STEPS.kept_rows + 1) == long
+    assert ends_after(moves, STEPS.quickly_passed) == short
+    assert ends_after(moves, STEPS.quickly_passed + 1) == long

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.fitting import summed_rows
+from armscope.fitting import model_fit, summed_rows
 from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.constants import STEPS
 from armscope.fitting.linearisation import LinearisedTable, residuals
@@ -135,6 +135,27 @@ def test_one_step_along_the_sums_alone_would_not_do(both: tuple[Refit, Refit, Re
     near = replace(few, bases={**start.bases, **few.bases})
     step = fitted(near, summed(near, table, effects), effects, ROWS)
     assert (np.abs(values(step) - values(exact)) / stderrs(exact)).max() > 0.1
+
+
+def test_a_table_that_is_passed_over_starts_with_its_sums(both: tuple[Refit, Refit, Refit], monkeypatch) -> None:
+    """The first step on the way costs no pass; the last fit goes on where that ended, and ends where any does."""
+    few, exact, _ = both
+    start, table = recordings()
+    effects = effects_of(start, table)
+    near = replace(few.model, bases={**start.bases, **few.model.bases})
+    sums = summed(near, table, effects)
+    rows = SummedRows.few(sums.table, sums.layout, sums.point, sums.equations)
+    passes = []
+    counted = normal_equations_by_block
+    monkeypatch.setattr(model_fit, "normal_equations_by_block", lambda *given: passes.append(1) or counted(*given))
+    rows.on_the_way = True
+    crude = fitted(near, rows, effects, ROWS)
+    assert len(passes) <= STEPS.on_the_way - 1
+    rows.on_the_way = False
+    ended = fitted(crude.model, rows, effects, ROWS)
+    assert len(passes) > STEPS.on_the_way - 1
+    assert (np.abs(values(ended) - values(exact)) / stderrs(exact)).max() < 0.02
+    assert ended.noise == pytest.approx(exact.noise, rel=0.01)
 
 
 def test_sums_that_lead_nowhere_are_not_trusted(both: tuple[Refit, Refit, Refit], monkeypatch) -> None:

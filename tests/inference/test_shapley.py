@@ -69,3 +69,19 @@ def test_what_is_held_near_zero_explains_little() -> None:
     (held,) = shares(sums(X, y), np.array([0.0, 9.0]), frames(X), [np.array([1])])
     assert free == pytest.approx(1.0)
     assert held == pytest.approx(0.1)
+
+
+@given(st.integers(0, 10_000))
+def test_the_last_members_count_for_what_nothing_else_explains(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    X = rng.normal(size=(ROWS, 9)) + rng.normal(size=(ROWS, 1))
+    y = X @ rng.normal(size=9) + rng.normal(size=ROWS)
+    members = [np.arange(1 + 2 * m, 3 + 2 * m) for m in range(4)]
+    told = shares(sums(X, y), np.zeros(9), frames(X), members, last={1, 3})
+    first = X[:, [0, *members[0], *members[2]]]
+    left = 1 - explained(first, y)
+    assert told[[0, 2]].sum() == pytest.approx(explained(first, y), abs=1e-6)
+    one, other = (explained(np.column_stack([first, X[:, members[m]]]), y) for m in (1, 3))
+    both = explained(X[:, [0, *members[0], *members[2], *members[1], *members[3]]], y)
+    assert told[1] == pytest.approx((one - (1 - left) + both - other) / 2, abs=1e-6)
+    assert told[3] == pytest.approx((other - (1 - left) + both - one) / 2, abs=1e-6)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -132,7 +132,8 @@ def _values_without(
     trained: Problem, best: Hypothesis, sets: Sequence[tuple[SelectedEffect, ...]], noise: float
 ) -> Array:
     """What is fitted without a fold's rows: by every step of the waterfall, and by the selection repeated there."""
-    return fitted_values(trained, [*_readings(trained, sets, best, noise), _chosen_again(trained, best)])
+    values = fitted_values(trained, _readings(trained, sets, best, noise))
+    return np.concatenate([values, fitted_values(trained, [_chosen_again(trained, best)])])
 
 
 def _place_by_points(
@@ -162,11 +163,11 @@ def _chosen_again(trained: Problem, best: Hypothesis) -> Hypothesis:
 
 def _readings(
     problem: Problem, sets: Sequence[tuple[SelectedEffect, ...]], best: Hypothesis, first_noise: float
-) -> list[Hypothesis]:
+) -> Iterator[Hypothesis]:
     """The waterfall's hypotheses: nothing, growing sets of effects, all of them with the background."""
     noises = [first_noise, *[best.noise] * (len(sets) - 1)]
     backgrounds = [*[problem.space.no_background] * (len(sets) - 1), best.background]
-    return [evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True)]
+    return (evaluate(problem, *each) for each in zip(sets, backgrounds, noises, strict=True))
 
 
 def _held_out_errors(

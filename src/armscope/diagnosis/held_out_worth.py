@@ -6,7 +6,7 @@ once without each. What makes held-out rows worse is no cause, whatever the evid
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence, Set
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence, Set
 
 import numpy as np
 
@@ -174,10 +174,10 @@ def held_out_errors(
         (blocks, readings) sums of squares, mm^2; zeros where blocks are too few to hold out.
     """
 
-    def fit(trained: Problem) -> list[Hypothesis]:
+    def fit(trained: Problem) -> Iterator[Hypothesis]:
         large = is_beside(len(np.flatnonzero(prior_variances(trained, *readings[0]))))
         near = at_noise(trained, *readings[0], noise) if large else None  # of which the others are parts
-        return [evaluate(trained, *reading, noise, near) for reading in readings]
+        return (evaluate(trained, *reading, noise, near) for reading in readings)
 
     return errors_of_fits(problem, blocks, len(readings), fit)
 
@@ -186,7 +186,7 @@ def errors_of_fits(
     problem: Problem,
     blocks: Sequence[NormalEquations],
     count: int,
-    fit: Callable[[Problem], Sequence[Hypothesis]],
+    fit: Callable[[Problem], Iterable[Hypothesis]],
 ) -> Array:
     """What hypotheses that are fitted to four fifths of the blocks leave of the others.
 
@@ -194,7 +194,7 @@ def errors_of_fits(
         problem: the sums of all rows, priors and costs.
         blocks: sums of blocks of rows.
         count: K, how many hypotheses.
-        fit: K hypotheses on the sums of some rows.
+        fit: K hypotheses on the sums of some rows; one after the other, they need not be kept together.
 
     Returns:
         (blocks, K) sums of squares, mm^2; zeros where blocks are too few to hold out.

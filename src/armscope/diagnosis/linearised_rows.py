@@ -72,9 +72,12 @@ class LinearisedRows:
         Returns:
             A row's numbers in all channels stand together.
         """
-        table = LinearisedTable(self.recordings if at is None else self.recordings.rows(at))
-        postures = (posture for _, posture in table.chunks(self.point))
-        return np.concatenate([columns(WhitenedPosture.plain(each, self.weights.channels), terms) for each in postures])
+        table = self.table if at is None else self.table.rows(at)
+        found = np.empty((len(table), self.width, len(terms)))
+        for part, posture in table.chunks(self.point):
+            X = columns(WhitenedPosture.plain(posture, self.weights.channels), terms)
+            found[part] = X.reshape(len(part), self.width, -1)
+        return found.reshape(-1, len(terms))
 
     def residuals(self, values: Array, number: Indices | None = None) -> Array:
         """(K, N, c) what K readings leave of every row in all channels, base axes, mm and mrad; NaN where not measured.

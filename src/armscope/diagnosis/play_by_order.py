@@ -22,7 +22,7 @@ from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.selection import select
 from armscope.diagnosis.state import Selected
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.gaps import gaps, is_play_by_approach, rows_of_unknown_side
+from armscope.fitting.gaps import gaps, is_play_by_approach, rows_of_unknown_side, sums_beside
 from armscope.fitting.joint_scatter import log_likelihood, motor_jacobians
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.constants import PRIORS
@@ -86,14 +86,17 @@ def _promising_sides(found: Selected) -> Array | None:
     """
     recordings, fit = found.table.recordings, found.fit
     everyone = np.ones(len(recordings), dtype=bool)
-    readings = ((fit.weights, fit.noise), (fit.weights.trusting(everyone).unwhitened, float("nan")))
+    trusting = fit.weights.trusting(everyone).unwhitened
+    readings = ((fit.weights, fit.noise), (trusting, float("nan")))
+    sums = [sums_beside(fit, found.table, weights) for weights, _ in readings]
     jumps = [part for part in fit.model.parts if part.placed.effect.jumps]
     best, promising = TELLING.play_by_order, None
     for kept in (False, True):
         sides = sides_of_last_moves(recordings, kept)
-        table = replace(recordings, approach=sides)
-        for weights, noise in readings:
-            told = gaps(fit, table, weights, noise, jumps).values()
+        # in an order of its own, it keeps what is computed on it for the other reading
+        table = LinearisedTable(replace(recordings, approach=sides), found.table.channels, np.arange(len(sides)))
+        for (weights, noise), beside in zip(readings, sums, strict=True):
+            told = gaps(fit, table, weights, noise, jumps, beside).values()
             clearly = max((gap.clearly for gap in told if gap.rms_mm >= fit.noise), default=0.0)
             if clearly > best:
                 best, promising = clearly, sides

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
-from armscope.core.types import Array, Indices, Progress
+from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
 from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
@@ -35,7 +34,6 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, background_sizes, build_problem
 from armscope.inference.search import Search
 from armscope.measurement.noise import Noise
-from armscope.measurement.row_weights import RowNoise
 from armscope.physics.backgrounds import DRIFT, FAMILIES, backgrounds, gear_waves
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import base_shifts_of_runs
@@ -80,7 +78,7 @@ class SelectionLoop:
         self.last: tuple[Hypothesis, EffectSpace] | None = None
         self.scans, self.scanned = 0, few_rows(recordings)
         self.by_block: list[NormalEquations] | None = None
-        self.summed: tuple[RowNoise, Array | None, SummedRows] | None = None
+        self.summed: SummedRows | None = None
         self.fit: Refit
 
     def run(self) -> Selected:
@@ -184,14 +182,14 @@ class SelectionLoop:
         sums = self._sums(self.block_of_row if last else 0 * self.block_of_row)
         self.by_block = sums if last else None
         self.problem = build_problem(self.space, together := total(sums), self.noise.least_mm)
-        self.summed = self._summed(together) if last and len(self.table) > STEPS.kept_rows else None
+        self.summed = self._summed(together) if last and len(self.table) > STEPS.quickly_passed else None
         search = Search.on(self.problem)
         self._take(search, search.best(starts, None if self.last is None else search.transferred(*self.last)))
         self.scans += scanning
         most = MESH_COUNTS[-1] if self.scans == SCANS.scan_of_fine_lines else SCANS.ordinary_lines
         new = self._scanned(search, most) if scanning else []
         self.model = self.fit.model
-        if not self.summed:  # else the last fit is still to come
+        if not self.summed or self.summed.are_passed_over:  # else what all rows leave is still to come
             self.noise.weigh(self.fit.channel_residuals, self.fit.noise, self.fit.weights.whitening)
         return new
 
@@ -211,12 +209,13 @@ class SelectionLoop:
 
     def _fit(self, best: Hypothesis, of_all: bool = False) -> None:
         """The exact fit of the names, without those that no arm can have."""
-        again = partial(self._fitted, of_all=of_all)
-        left, fit = without_implausible(self.problem, self.space, best, again)
-        self.best, self.fit = more_plausible(self.problem, left, fit, again)
+        left, fit = without_implausible(self.problem, self.space, best, self._fitted)
+        self.best, self.fit = more_plausible(self.problem, left, fit, self._fitted)
+        if of_all and self.summed:
+            self.fit = self._fitted(self.best, self.fit.model)
 
-    def _fitted(self, best: Hypothesis, of_all: bool = False) -> Refit:
-        """A hypothesis fitted with the exact model; rows that were summed up count as they did in the sums."""
+    def _fitted(self, best: Hypothesis, near: FittedModel | None = None) -> Refit:
+        """A hypothesis fitted with the exact model; of a long table to the end only if it is near (the last fit)."""
         effects = [
             (self.space.placed[c.candidate], float(self.problem.sizes[c.size]) * (LOOP.within if c.nested else 1.0))
             for c in best.chosen
@@ -224,15 +223,16 @@ class SelectionLoop:
         small = list(zip(self.families, background_sizes(self.problem, best.background), strict=True))
         (masses,) = self.space.companions
         small.append((self.loads, float(masses.joins(best.candidates, best.background))))
-        rows, white, known = self.summed or (self.noise.rows, self.noise.weights.whitening, self.table)
-        if isinstance(known, SummedRows):
-            known.on_the_way = not of_all
-        return refit(self.point, known, self.frames, small, effects, rows, self.noise.least_mm, white)
+        rows, noise, start = self.summed or self.table, self.noise, self.point
+        if self.summed:
+            self.summed.on_the_way = near is None
+            start = near if near and self.summed.are_passed_over else start
+        return refit(start, rows, self.frames, small, effects, noise.rows, noise.least_mm, noise.weights.whitening)
 
-    def _summed(self, together: NormalEquations) -> tuple[RowNoise, Array | None, SummedRows]:
-        """How the rows of a long table counted in its sums, and the sums: exact fits then pass over its rows once."""
-        rows = SummedRows.of(self.table, self.space.layout, self.point, together, LOOP.rows_of_a_group)
-        return self.noise.rows, self.weights.whitening, rows
+    def _summed(self, together: NormalEquations) -> SummedRows:
+        """A long table with its sums, where its fits start; where it is very long, they pass over its rows once."""
+        few, known = len(self.table) <= STEPS.kept_rows, (self.table, self.space.layout, self.point, together)
+        return SummedRows.few(*known) if few else SummedRows.of(*known, LOOP.rows_of_a_group)
 
     def earned(self, finer: bool = False) -> Selected:
         """Where the rounds stand, without what makes held-out rows worse, gears' waves as the rows say.

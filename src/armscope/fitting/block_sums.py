@@ -69,6 +69,48 @@ def normal_equations_by_block(
     return [(s := whole.pop()).equations(column_order.whole(s.G), back) for _ in range(count)]
 
 
+@dataclass(frozen=True, eq=False)
+class Slope:
+    """What a model leaves of all rows, and where that falls: X'Wr (p,), r'Wr, and the number of weighted residuals."""
+
+    b: Array
+    left: float
+    n: float
+
+    def about(self, G: Array, at: Array) -> NormalEquations:
+        """Normal equations at a model whose values are ``at`` (p,), from products G (p, p) of the columns there."""
+        b = self.b + G @ at
+        return NormalEquations(G, b, self.left + float((self.b + b) @ at), self.n)
+
+
+def slope_at(layout: ParameterLayout, model: FittedModel, rows: Measured, weights: RowWeights) -> Slope:
+    """The slope of the misfit at a model, without the products of columns, which take most of the time.
+
+    Args:
+        layout: of the model's columns.
+        model: where columns are taken.
+        rows: a table, or recordings.
+        weights: of the rows; only the channels that they are of count.
+
+    Returns:
+        Sums over the rows, mm per SI unit.
+    """
+    order = layout.column_order
+
+    def of_part(chunks: Chunks) -> Slope:
+        b, left, n = np.zeros(len(layout.terms)), 0.0, 0.0
+        for chunk, posture in chunks:
+            whitener = weights.whitener(chunk)
+            y = whitener.response(model, posture).T
+            b += structured_design(WhitenedPosture(posture, whitener), order).rmatvec(y)
+            left += float(np.vdot(y, y))
+            n += float(weights.numbers(chunk).sum())
+        return Slope(b[order.back], left, n)
+
+    parts = linearised(rows).each_part(model, of_part)
+    return Slope(np.sum([part.b for part in parts], axis=0), sum(p.left for p in parts), sum(p.n for p in parts))
+
+
 @dataclass(eq=False)
 class _Sums:
     """Sums over some rows in the order of a layout's columns; of G only the upper blocks."""

@@ -47,6 +47,7 @@ class ModelColumns:
         self, layout: ParameterLayout, inside: Indices, model: FittedModel, rows: Measured, weights: RowWeights
     ) -> None:
         self.layout, self.model, self.table, self.weights = layout, model, linearised(rows), weights
+        self.inside = inside
         self.terms = grouped_columns([layout.terms[i] for i in inside])
         self._kept: list[tuple[WhitenedPosture, StructuredDesign, Array]] | None = None
 
@@ -58,13 +59,16 @@ class ModelColumns:
     def _made(self) -> Iterator[tuple[WhitenedPosture, StructuredDesign, Array]]:
         """Chunk by chunk: how all channels see the rows, the columns, and the response (c, n)."""
         values, active, present = active_effects(self.layout, self.model)
-        effects = grouped_columns(present)
+        apart = None if np.isin(active, self.inside).all() else grouped_columns(present)
         for chunk, posture in self.table.chunks(self.model):
             whitener = self.weights.whitener(chunk)
             seen = WhitenedPosture(posture, whitener)
-            y = whitener.response(self.model, posture).T
-            y = y + structured_design(seen, effects).matvec(values[active][effects.order])
-            yield seen, structured_design(seen, self.terms), y
+            X, y = structured_design(seen, self.terms), whitener.response(self.model, posture).T
+            if apart is None:
+                y = y + X.matvec(values[self.inside][self.terms.order])
+            else:
+                y = y + structured_design(seen, apart).matvec(values[active][apart.order])
+            yield seen, X, y
 
     def sums(self, groups: Sequence[TermBlocks]) -> list[ColumnBlocks]:
         """Sums over rows for blocks of terms, mm per SI unit.

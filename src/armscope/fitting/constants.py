@@ -16,6 +16,24 @@ class FittingSteps(Constants):
     )
     most_damping: float = constant(1e8, "share at which trying ends", "judgement: such a step goes nowhere")
     refit: int = constant(6, "of the exact refit", "judgement: more than it takes", unit="steps")
+    refit_of_many_rows: int = constant(
+        12,
+        "of the exact refit to a table that is not quickly passed over",
+        "judgement: with a thousand columns, whose values the rows' weights follow slowly, it took ten",
+        unit="steps",
+    )
+    on_the_way: int = constant(
+        3,
+        "of a refit after which another one follows",
+        "judgement: it is then nearer than the noise, and what no arm can have shows",
+        unit="steps",
+    )
+    quickly_passed: int = constant(
+        3500,
+        "up to which fits pass over a table quickly",
+        "judgement: time; what is diagnosed first of a longer table is as long",
+        unit="rows",
+    )
     converged_mm: float = constant(
         1e-6, "change of the residuals at which the exact refit ends", "derived: far below any instrument", unit="mm"
     )

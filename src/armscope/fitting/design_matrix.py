@@ -160,6 +160,15 @@ class StructuredDesign:
         ]
         return np.concatenate([others, *groups])
 
+    def with_responses(self, Z: Array) -> Array:
+        """(p, m) products of the columns with m responses (m, c, n), in the order of `column_order`."""
+        others = self.flat @ Z.reshape(len(Z), -1).T
+        groups = [
+            drivers @ np.einsum("mcn,cn->mn", Z, sensitivity).T
+            for sensitivity, drivers in zip(self.sensitivities, self.drivers, strict=True)
+        ]
+        return np.concatenate([others, *groups])
+
     def add_products(self, total: Array) -> None:
         """Add the products of all columns to (p, p) sums in the order of `column_order`; upper blocks only."""
         first, *rest = self.column_order.slices

@@ -28,7 +28,7 @@ from scipy.linalg import solve_triangular
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import DISCREPANCY
-from armscope.fitting.design_matrix import component_rows
+from armscope.fitting.design_matrix import component_rows, structured_design
 from armscope.fitting.linearisation import linearised
 from armscope.fitting.refit import Refit
 from armscope.inference.constants import PRIORS
@@ -148,28 +148,30 @@ def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:
     base = [term(axis, "m" if axis[0] == "t" else "rad", (Direction("base", axis), ONE)) for axis in AXES]
     turns = [term("turn", "rad", (motor(j), ONE)) for j in motors]
     slow, shapes = _slow(recordings, rows), _shapes(table.motor_angles[:, [j - 1 for j in motors]])
-    p, wander = len(fit.layout.terms), 3 * slow.shape[1]
+    order, p, wander = fit.layout.column_order, len(fit.layout.terms), 3 * slow.shape[1]
     starts = [0, wander, *(2 * wander + n * shapes.shape[1] for n in range(len(turns) + 1))]
     of = {what: slice(*at) for what, at in zip(_named(motors), pairwise(starts), strict=True) if at[0] < at[1]}
     count = starts[-1]
     normal, own, cross, pull = np.zeros((p, p)), np.zeros((count, count)), np.zeros((p, count)), np.zeros(count)
     for part, posture in linearised(table).chunks(fit.model):
         whitener = fit.weights.whitener(rows[part])
-        X = component_rows(WhitenedPosture(posture, whitener), (*fit.layout.terms, *base, *turns))
-        moved = (X[p : p + 6, None] * slow[part].T[:, None], X[p + 6 :, None] * shapes[part].T[:, None])
-        fitted = X[:p].reshape(p, -1)
-        Z = np.concatenate([each.reshape(-1, fitted.shape[1]) for each in moved])
-        normal += fitted @ fitted.T
-        own += Z @ Z.T
-        cross += fitted @ Z.T
-        pull += Z @ whitener.response(fit.model, posture).T.reshape(-1)
+        seen = WhitenedPosture(posture, whitener)
+        fitted, directions = structured_design(seen, order), component_rows(seen, (*base, *turns))
+        moved = directions[:6, None] * slow[part].T[:, None], directions[6:, None] * shapes[part].T[:, None]
+        Z = np.concatenate([each.reshape(-1, *directions.shape[1:]) for each in moved])
+        flat = Z.reshape(count, -1)
+        fitted.add_products(normal)
+        own += flat @ flat.T
+        cross += fitted.with_responses(Z)
+        pull += flat @ whitener.response(fit.model, posture).T.reshape(-1)
     size, numbers = np.ones(count), fit.weights.whitener(rows).width * len(rows)
     for what, at in list(of.items()):
         size[at] = np.sqrt(np.trace(own[at, at]) / numbers)
         if size[at.start] < DISCREPANCY.tiny_mm:
             del of[what]
     size = np.maximum(size, DISCREPANCY.tiny_mm)
-    return _Sums(normal, own / np.outer(size, size), cross / size, pull / size, of, numbers)
+    cross = cross[order.back] / size
+    return _Sums(order.whole(normal), own / np.outer(size, size), cross, pull / size, of, numbers)
 
 
 def _named(motors: Sequence[int]) -> list[str]:

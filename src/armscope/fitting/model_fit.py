@@ -49,6 +49,8 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         self.noise = self.least_noise = least_noise
         self.negligible = negligible
         self.steps_mm: list[float] = []
+        self.known: NormalEquations | None = None
+        """Sums where the fit starts, if they are known."""
         self.weights: RowWeights
         self.equations: NormalEquations
         self.precision: Array
@@ -78,6 +80,9 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
 
     def sums(self, state: FittedModel) -> NormalEquations:
         """Over the weighted rows, linearised about a state."""
+        known, self.known = self.known, None
+        if known is not None:
+            return known
         blocks = np.zeros(len(self.table), dtype=np.intp)
         return normal_equations_by_block(self.parts, state, self.table, self.weights, blocks)[0]
 
@@ -102,7 +107,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         """
         uncertain = self.noise * np.sqrt(self.effective_dof / max(self.equations.n, 1.0))
         moved = self.steps_mm[-1] = float(np.sqrt(np.mean((after.points_mm - before.points_mm) ** 2)))
-        if len(self.table) > STEPS.kept_rows and len(self.steps_mm) > 1:
+        if len(self.table) > STEPS.quickly_passed and len(self.steps_mm) > 1:
             shrunk = moved / self.steps_mm[-2]
             moved *= shrunk / (1 - shrunk) if shrunk < STEPS.steady else 1.0
         return bool(moved < max(STEPS.converged_mm, self.negligible * uncertain))

@@ -75,8 +75,8 @@ def refit(
 
     Args:
         model: where to start from; its effects are replaced.
-        rows: a table, or recordings; or a long table with sums over all rows at the model. On the way to its last fit
-            residuals and weights are of the rows that stand for it.
+        rows: a table, or recordings; or a long table with sums over all rows at a point: the model, or where others of
+            its fits started. On the way to its last fit residuals and weights are of the rows that stand for it.
         frames: always free.
         backgrounds: per family (effects, share of their tolerances); families of size 0 are left out.
         effects: (effect, size at the tool, mm).
@@ -100,7 +100,7 @@ def refit(
     def prior(equations: NormalEquations) -> Array:
         return _precision(parts, equations, [size for _, size in backgrounds], effects)
 
-    if isinstance(rows, SummedRows):
+    if isinstance(rows, SummedRows) and not rows.are_passed_over:
         some = SummedFit(parts, rows, rows.weigher(row_noise, least_noise, whitening), prior, least_noise)
         found = gauss_newton(some, start, STEPS.refit)
         if rows.on_the_way:
@@ -110,7 +110,11 @@ def refit(
             return _ended(some, found.state, left, weigh(left), rows.table)
     table = rows.table if isinstance(rows, SummedRows) else rows
     problem = ModelFit(parts, table, weigh, prior, least_noise, STEPS.converged_share)
-    found = gauss_newton(problem, start, STEPS.refit)
+    most_steps = STEPS.refit if len(table) <= STEPS.quickly_passed else STEPS.refit_of_many_rows
+    if isinstance(rows, SummedRows):
+        problem.known = rows.among(parts) if model is rows.point else None
+        most_steps = STEPS.on_the_way if rows.on_the_way else most_steps
+    found = gauss_newton(problem, start, most_steps)
     return _ended(problem, found.state, found.residual, problem.weights, problem.table)
 
 

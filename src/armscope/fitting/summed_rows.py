@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from armscope.core.types import Array, Indices
-from armscope.fitting.block_sums import normal_equations_by_block
+from armscope.fitting.block_sums import normal_equations_by_block, slope_at
 from armscope.fitting.constants import STEPS
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.model_fit import ModelFit
@@ -32,6 +32,8 @@ Weigher = Callable[[ChannelResiduals], RowWeights]
 @dataclass(eq=False)
 class SummedRows:
     """The N rows of a long table, and sums over all of them.
+
+    Of a table that is not so long that passes over it can't be afforded, the sums save the first of them alone.
 
     Attributes:
         table: the rows.
@@ -77,9 +79,39 @@ class SummedRows:
         some = some_rows(table.recordings, STEPS.telling_rows, of_each)
         return cls(table, layout, point, equations, some, standing_for(table.recordings, some))
 
+    @classmethod
+    def few(
+        cls, table: LinearisedTable, layout: ParameterLayout, point: FittedModel, equations: NormalEquations
+    ) -> SummedRows:
+        """A table that is short enough for fits to pass over all its rows, with its sums.
+
+        Args:
+            table: N rows.
+            layout: of the p columns that were summed up.
+            point: where they were linearised.
+            equations: the sums, mm per SI unit.
+
+        Returns:
+            Both.
+        """
+        return cls(table, layout, point, equations, np.arange(len(table)), np.ones(len(table)))
+
     def __post_init__(self) -> None:
+        if self.are_passed_over:
+            self.sample = self.table
+            return
         rows = self.table.recordings.rows(self.some)
         self.sample = LinearisedTable(rows, self.table.channels, np.arange(len(self.some)))
+
+    @property
+    def are_passed_over(self) -> bool:
+        """Whether a fit passes over all rows."""
+        return len(self.some) == len(self.table)
+
+    def among(self, parts: ParameterLayout, sums: NormalEquations | None = None) -> NormalEquations:
+        """The sums, or others of the same columns, of some of the columns alone."""
+        at, whole = np.array([self.layout.index[term] for term in parts.terms]), sums or self.equations
+        return NormalEquations(whole.G[np.ix_(at, at)], whole.b[at], whole.yy, whole.n)
 
     def weigher(self, noise: RowNoise, least_mm: float, whitening: Array | None) -> Weigher:
         """Weights of the rows that stand for all, by what a model leaves of them.
@@ -126,10 +158,9 @@ class SummedFit(ModelFit):
     ) -> None:
         super().__init__(parts, rows.sample, weigh, precision, least_noise, STEPS.converged_share)
         self.rows = rows
-        at = np.array([rows.layout.index[term] for term in parts.terms])
-        self.whole, self.linear = (_only(sums, at) for sums in (rows.equations, rows.of_some(weigh)))
-        self.gone: tuple[FittedModel | None, Array] = None, np.zeros(len(at))
-        self.values = np.zeros(len(at))
+        self.whole, self.linear = rows.among(parts), rows.among(parts, rows.of_some(weigh))
+        self.gone: tuple[FittedModel | None, Array] = None, np.zeros(len(parts.terms))
+        self.values = np.zeros(len(parts.terms))
 
     def moved(self, state: FittedModel, step: Array) -> FittedModel:
         """The model a step further, and how far it has gone from the point."""
@@ -139,12 +170,13 @@ class SummedFit(ModelFit):
 
     def sums(self, state: FittedModel) -> NormalEquations:
         """Over all rows about a state: their sums at the point, and what some rows say is not linear since."""
-        here, at = super().sums(state), current_parameters(self.parts, state)
+        here = slope_at(self.parts, state, self.table, self.weights)
+        at = current_parameters(self.parts, state)
         started = state is not self.gone[0]
         # frames count from where they are, in their own axes; from the point they have gone the sum of their steps
         self.values = at if started else self.gone[1]
         left = self.whole.rss(at) if started else self.equations.rss(self.solved.values)
-        bent = _slope(here, at) - _slope(self.linear, self.values)
+        bent = here.b - _slope(self.linear, self.values)
         b = _slope(self.whole, self.values) + bent + self.whole.G @ at
         return NormalEquations(self.whole.G, b, left + float((2 * b - self.whole.G @ at) @ at), self.whole.n)
 
@@ -152,10 +184,6 @@ class SummedFit(ModelFit):
         """Whether the model leaves as little of all rows as of those that stood for them."""
         left, told = (robust.scale_of(each.points_mm) for each in (everything, some))
         return left <= self.may_grow * told
-
-
-def _only(sums: NormalEquations, at: Indices) -> NormalEquations:
-    return NormalEquations(sums.G[np.ix_(at, at)], sums.b[at], sums.yy, sums.n)
 
 
 def _slope(sums: NormalEquations, values: Array) -> Array:

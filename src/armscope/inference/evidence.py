@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import ClassVar
 
@@ -272,6 +272,6 @@ def _effective_dof(inverse: Array, noise: float, precision: Array) -> float:
     return len(inverse) - noise**2 * float(np.einsum("ij,ij->j", inverse, inverse) @ precision)
 
 
-def fitted_values(problem: Problem, hypotheses: Sequence[Hypothesis]) -> Array:
+def fitted_values(problem: Problem, hypotheses: Iterable[Hypothesis]) -> Array:
     """(K, p) the posterior means of K hypotheses, SI units; zero where a column takes no part."""
     return np.array([each.coefficients(len(problem.scale)) / problem.scale for each in hypotheses])

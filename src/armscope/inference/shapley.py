@@ -49,15 +49,34 @@ def shares(
     if count == 0 or left <= 0:
         return np.zeros(count)
     totals, orders = np.zeros(count), 0
+    first = np.concatenate([frames, *(each for m, each in enumerate(members) if m not in last)])
+    beyond = _beyond(G, b, held, first) if last else None  # however those before the last ones are ordered
     for drawn in _orders(count):
-        order = sorted(drawn, key=lambda member: member in last)
-        columns = np.concatenate([frames, *(members[m] for m in order)])
-        explained = _explained(G, b, held, columns)[len(frames) :]
-        ends = np.cumsum([len(members[m]) for m in order])
-        for m, start, end in zip(order, [0, *ends[:-1]], ends, strict=True):
-            totals[m] += explained[start:end].sum()
+        totals += _in_order(G, b, held, frames, [(m, members[m]) for m in drawn if m not in last], count)
+        if beyond is not None:
+            own = [(m, members[m]) for m in drawn if m in last]
+            totals += _in_order(*beyond, held, frames[:0], own, count)
         orders += 1
     return np.asarray(totals / (orders * left))
+
+
+def _in_order(
+    G: Array, b: Array, held: Array, before: Indices, order: Sequence[tuple[int, Indices]], count: int
+) -> Array:
+    """(count,) what each of some members explains beyond some columns and the members before it, mm^2."""
+    explained = _explained(G, b, held, np.concatenate([before, *(columns for _, columns in order)]))
+    parts = np.split(explained, np.cumsum([len(before), *(len(columns) for _, columns in order)])[:-1])
+    found = np.zeros(count)
+    for (member, _), part in zip(order, parts[1:], strict=True):
+        found[member] = part.sum()
+    return found
+
+
+def _beyond(G: Array, b: Array, held: Array, columns: Indices) -> tuple[Array, Array]:
+    """Sums of all columns beyond what some of them explain."""
+    factor = lower_cholesky(among(G, columns), held[columns])
+    taken = solve_lower(factor, G[columns])
+    return G - taken.T @ taken, b - taken.T @ solve_lower(factor, b[columns])
 
 
 def _explained(G: Array, b: Array, held: Array, columns: Indices) -> Array:

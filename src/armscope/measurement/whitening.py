@@ -102,10 +102,14 @@ class WhitenedPosture:
 
     def fill(self, out: Array, term: Term) -> None:
         """Write `column` into ``out`` (width, n), lying."""
-        first, *others = term.products
-        np.multiply(self.sensitivity(first.direction).T, first.factor * self.scene.driver(first.driver), out=out)
-        for product in others:
-            out += self._product(product).T
+        for number, (direction, (first, *others)) in enumerate(term.by_direction):
+            amount = first.factor * self.scene.driver(first.driver)
+            for product in others:
+                amount += product.factor * self.scene.driver(product.driver)
+            if number == 0:
+                np.multiply(self.sensitivity(direction).T, amount, out=out)
+            else:
+                out += self.sensitivity(direction).T * amount
 
     def _product(self, product: Product) -> Array:
         amount = product.factor * self.scene.driver(product.driver)

@@ -100,6 +100,14 @@ class Term:
     plausible: float = field(default=math.inf, compare=False)
     learned: float | None = field(default=None, compare=False)
 
+    @functools.cached_property
+    def by_direction(self) -> tuple[tuple[Direction, tuple[Product, ...]], ...]:
+        """The products, direction by direction: an error of a mass has some dozens of them in a few."""
+        found: dict[Direction, list[Product]] = {}
+        for product in self.products:
+            found.setdefault(product.direction, []).append(product)
+        return tuple((direction, tuple(products)) for direction, products in found.items())
+
     @property
     def prior_size(self) -> float:
         """SI, one standard deviation of what is believed before the rows speak."""

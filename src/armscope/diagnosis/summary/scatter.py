@@ -10,7 +10,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.fitting.gaps import Gap, gaps
+from armscope.fitting.gaps import Gap, gaps, sums_beside
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.recordings import Recordings, motion
 from armscope.verdict.effects import FoundEffect, Parameter
@@ -142,7 +142,8 @@ def _plays(state: DiagnosisState, motors: Sequence[int]) -> dict[int, Parameter]
     sides = np.zeros(state.recordings.motor_angles.shape)
     for motor in motors:
         sides[:, motor - 1] = sides_by_order(state.recordings, motor)
-    found = gaps(state.fit, replace(state.recordings, approach=sides), state.fit.weights, state.fit.noise)
+    fit, told = state.fit, replace(state.recordings, approach=sides)
+    found = gaps(fit, told, fit.weights, fit.noise, sums=sums_beside(fit, state.table, fit.weights))
     return {motor: play_of(gap) for motor, gap in found.items() if gap.clearly > TELLING.play_by_order}
 
 
