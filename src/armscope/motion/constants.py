@@ -60,8 +60,17 @@ class LibraryRules(Constants):
     )
     stribeck_widths: int = constant(5, "speeds that are scanned", "judgement: in steps of two", unit="speeds")
     between_speeds: float = constant(0.5, "relative, of a scanned speed, allowed for", "derived: half a scan's step")
+    same_unit: float = constant(
+        0.05, "by which a gain may differ from another unit of torque", "judgement: masses are known to some percent"
+    )
     delay_s: float = constant(0.01, "delay that is tried first", "judgement: of drives and field buses", unit="s")
     joints_of_a_clock: int = constant(3, "for one delay of all", "judgement: two may be alike by chance", unit="joints")
+    turnings_s: tuple[float, ...] = constant(
+        (-0.008, 0.0, 0.008, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
+        "by which friction changes sides later than the speed, that are tried first",
+        "derived: at 25 Hz the slope of a step tells half of such a distance",
+        unit="s",
+    )
     few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")
     most_waves: int = constant(400, "per turn that are tried", "derived: two per motor turn behind a gear of 200 to 1")
     waves_at_once: int = constant(50, "formed at a time", "judgement: memory; 30,000 samples of these are 24 MB")
@@ -130,9 +139,9 @@ class PriorRules(Constants):
         unit="s",
     )
     longest_turning_s: float = constant(
-        0.03,
+        0.06,
         "by which a joint's friction is taken to change sides later or sooner",
-        "measured: 27 ms at joint 5 of a UR10e",
+        "measured: 27 ms at joint 5 of a UR10e; twice as slow a field bus",
         unit="s",
     )
     reversal_sizes: tuple[float, ...] = constant(
@@ -221,47 +230,6 @@ class RowNoiseRules(Constants):
 
 
 @dataclass(frozen=True)
-class ConsistencyRules(Constants):
-    """When different paths agree on a cause."""
-
-    telling: float = constant(
-        0.5,
-        "standard error of a path's own size up to which it tells something",
-        "judgement: half the size from all",
-        unit="1",
-    )
-    tolerance: float = constant(
-        0.25, "by which sizes may differ in any case", "judgement: models are a little wrong", unit="1"
-    )
-    widths: float = constant(3.0, "standard errors by which sizes may differ", "convention: one chance in 400")
-    below: float = constant(
-        2.0, "standard errors by which what can't be negative may be below zero", "convention: one chance in 40"
-    )
-    cancelled: float = constant(
-        0.5, "of the lesser of two torques that is left of both, where they cancel", "judgement: most of it is gone"
-    )
-    judged: int = constant(6, "times that names are judged and weighed anew, at most", "judgement: time", unit="times")
-
-
-@dataclass(frozen=True)
-class SettledRules(Constants):
-    """Where friction of a joint has long changed sides."""
-
-    seconds: float = constant(
-        0.1,
-        "since a joint turned back, and until it does",
-        "judgement: friction that clings does so for 10 to 20 ms, the low-pass of rows for 20 to 80 more",
-        unit="s",
-    )
-    way: float = constant(
-        0.01,
-        "of a joint's travel that it must be from there, too",
-        "judgement: some milliradians of presliding, of a radian",
-        unit="1",
-    )
-
-
-@dataclass(frozen=True)
 class MotionTelling(Constants):
     """How much is told."""
 
@@ -305,8 +273,6 @@ class ExportRules(Constants):
 LIBRARY = LibraryRules()
 PRIOR = PriorRules()
 NOISE = RowNoiseRules()
-CONSISTENCY = ConsistencyRules()
-SETTLED = SettledRules()
 TELLING = MotionTelling()
 CHECK = CheckRules()
 EXPORT = ExportRules()

@@ -13,11 +13,12 @@ from armscope.core.types import Progress, unheard
 from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.gains import torque_of
 from armscope.motion.fitting.pauses import pauses_in_words
-from armscope.motion.fitting.rows import MotionRows, build_rows, torque_of
+from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_of, select_causes
-from armscope.motion.fitting.side_widths import widths_of_sides
+from armscope.motion.fitting.side_widths import how_friction_turns
 from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.fitting.with_changes import with_changes
@@ -166,12 +167,13 @@ def diagnose_motion(
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
-    seen = replace(seen, width_of_sides=widths_of_sides(arm, train, how))
+    widths, turning = how_friction_turns(arm, train, how)
+    seen = replace(seen, width_of_sides=widths)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
-    selected = select_causes(layout, train, how, runs, weighing, first.model)
+    selected = select_causes(layout, train, how, runs, weighing, replace(first.model, turning=turning))
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout

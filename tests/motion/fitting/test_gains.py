@@ -13,8 +13,7 @@ from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.gains import gain_of, meeting_gain
-from armscope.motion.fitting.rows import torque_of
+from armscope.motion.fitting.gains import gain_of, meeting_gain, torque_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, select_causes, weighed_anew
 from armscope.motion.library.layout import TorqueLayout

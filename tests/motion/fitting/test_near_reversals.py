@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pytest
 
-from armscope.motion.constants import SETTLED
+from armscope.motion.fitting.constants import SETTLED
 from armscope.motion.fitting.near_reversals import AT_ALL_TIMES, settled_rows, told_by_reversals_alone
 from armscope.motion.library import catalogue
 from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion

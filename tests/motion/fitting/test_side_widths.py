@@ -9,7 +9,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.side_widths import widths_of_sides
+from armscope.motion.fitting.side_widths import how_friction_turns
 from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.file import load_motion_model, save_motion_model
 from armscope.motion.pipeline import diagnose_motion
@@ -43,7 +43,7 @@ def bending(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
 def widths(plant: Plant | None) -> Array | None:
     arm = robot()
     every = list(stretches(moved(arm, 3, plant)))
-    return widths_of_sides(arm, every, chosen_cutoff(arm, every, None)[0])
+    return how_friction_turns(arm, every, chosen_cutoff(arm, every, None)[0])[0]
 
 
 def test_a_wide_change_of_sides_is_seen_at_its_joint_alone() -> None:

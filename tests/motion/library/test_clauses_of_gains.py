@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.motion.library.clauses_of_gains import gain_clause, unit_of
+from armscope.motion.library.clauses_of_gains import gain_clause, other_unit
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.verdict import FoundCause
 from armscope.verdict.effects import Parameter
@@ -40,7 +40,7 @@ def test_a_gain_is_told_with_its_size_and_another_unit_where_one_fits(gain: floa
 
 @pytest.mark.parametrize("gain", [0.0, -0.5, 1.0, -0.262, 5.0])
 def test_a_gain_that_no_unit_has_is_none(gain: float) -> None:
-    assert unit_of(Parameter("gain", "", gain, 0.01)) == ""
+    assert other_unit(Parameter("gain", "", gain, 0.01)) == ""
 
 
 @pytest.mark.parametrize("factor", [1 / KGF_M, 8.850746])

@@ -11,7 +11,7 @@ from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.normal_equations import NormalEquations
 from armscope.inference.problem import Problem
-from armscope.motion.constants import CONSISTENCY
+from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.clauses import run_in_words
 

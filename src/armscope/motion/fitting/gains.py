@@ -9,6 +9,21 @@ from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.sums import together
 from armscope.motion.library.layout import TorqueLayout
+from armscope.robot.dynamics import MovingArm
+
+
+def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
+    """Motor torque from what was recorded.
+
+    Args:
+        arm: its gains.
+        stretch_effort: (N, m) N m (N) or A.
+        kind: "torque" or "current".
+
+    Returns:
+        (N, m) N m (N).
+    """
+    return stretch_effort * np.where(np.isnan(arm.gains), 1.0, arm.gains) if kind == "current" else stretch_effort
 
 
 def gain_of(layout: TorqueLayout, coefficients: Array) -> Array:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.motion.constants import SETTLED
 from armscope.motion.fitting.consistency import factor_in
+from armscope.motion.fitting.constants import SETTLED
 from armscope.motion.fitting.rows import MotionRows, StatedSamples
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.sums import sums_by_joint

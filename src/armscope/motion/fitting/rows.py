@@ -113,20 +113,6 @@ class MotionRows:
         return np.where(np.isin(self.at[joint], self.layout.of_readings), 1.0, self.gain[joint])
 
 
-def torque_of(arm: MovingArm, stretch_effort: Array, kind: str) -> Array:
-    """Motor torque from what was recorded.
-
-    Args:
-        arm: its gains.
-        stretch_effort: (N, m) N m (N) or A.
-        kind: "torque" or "current".
-
-    Returns:
-        (N, m) N m (N).
-    """
-    return stretch_effort * np.where(np.isnan(arm.gains), 1.0, arm.gains) if kind == "current" else stretch_effort
-
-
 def build_rows(
     layout: TorqueLayout,
     stretches: Sequence[Stretch],
@@ -187,12 +173,17 @@ def _joined(layout: TorqueLayout, pieces: list[MotionRows]) -> MotionRows:
 
 
 def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows]) -> MotionRows:
-    columns = []
+    columns, nominal, stated = [], before.nominal, np.nan_to_num(layout.arm.stated_background)
     for j, (old, at) in enumerate(zip(before.columns, before.at, strict=True)):
         fresh, where = old.copy(), np.searchsorted(at, pieces[0].at[j])
         fresh[:, where] = np.concatenate([piece.columns[j] for piece in pieces])
         columns.append(fresh)
-    return replace(before, layout=layout, columns=tuple(columns), gain=pieces[0].gain, turning=pieces[0].turning)
+        own = np.searchsorted(at, OWN * j + np.arange(CAUSES_OF_OWN))
+        if np.any(moved := (fresh[:, own] - old[:, own]) @ stated[j]):  # friction that is stated turns as late
+            nominal = nominal.copy() if nominal is before.nominal else nominal
+            nominal[:, j] += moved
+    of = {"gain": pieces[0].gain, "turning": pieces[0].turning}
+    return replace(before, layout=layout, columns=tuple(columns), nominal=nominal, **of)
 
 
 def _stated(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:

@@ -1,9 +1,12 @@
-"""Within which speed each joint's friction changes sides, as a plain fit of the motion tells it.
+"""When, and within which speed, each joint's friction changes sides, as a plain fit of the motion tells it.
 
 A slide under preload, or a stiff grease, comes to its dry friction over a speed that is many times what a dry gear
 takes. Taken to be as sharp as that, what such a joint lacks near rest has the shape of a name: friction that falls, or
 rises, with speed. So widths compete first. One is chosen where by itself it says more than the sharp change of sides
 with any law that the library has for friction over speed, and with a delay: a single number beside two or three.
+
+So do moments: what turns 40 ms later than the speed is behind a low-pass of 25 Hz no small shift, and steps from none
+would not lead there.
 """
 
 from __future__ import annotations
@@ -20,7 +23,8 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.weights import fitted_together
-from armscope.motion.library.layout import OWN, OWN_NAMES, TorqueLayout
+from armscope.motion.library.dry_friction import motion_before
+from armscope.motion.library.layout import DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import coulomb_width, sharp_width, side
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals
@@ -30,12 +34,12 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 OfSpeed = Callable[[Signals], Array]
 """(N, c) columns at samples of one joint."""
-SIDES = [OWN_NAMES.index("coulomb"), OWN_NAMES.index("rounder")]
-"""Numbers of dry friction, and of the time over which it changes sides, among a joint's own columns."""
+SIDES = [DRY, ROUNDER, LATER]
+"""Numbers of dry friction, and of how and when it changes sides, among a joint's own columns."""
 
 
-def widths_of_sides(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> Array | None:
-    """The width of each joint.
+def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> tuple[Array | None, Array]:
+    """Within which speed, and how much later than it, each joint's dry friction changes sides.
 
     Args:
         arm: the arm.
@@ -43,52 +47,76 @@ def widths_of_sides(arm: MovingArm, stretches: Sequence[Stretch], how: Preparati
         how: filters and decimation.
 
     Returns:
-        (m,) rad/s (m/s); None where all friction changes sides as sharply as fits take it to.
+        (m,) rad/s (m/s), None where all friction changes sides as sharply as fits take it to; and (m,) s, to begin with.
     """
     layout = TorqueLayout(arm, (), False)
     rows = build_rows(layout, stretches, how, stated_model(arm))
     modelled = rows.nominal + rows.modelled(fitted_together(rows, np.arange(layout.width)))
-    found = sharp_width(arm)
+    widths, turning = sharp_width(arm), np.zeros(arm.n_motors)
     for j in range(arm.n_motors):
-        found[j] = _Joint(rows, how, j).width(modelled[:, j])
-    return found if np.any(found > sharp_width(arm)) else None
+        joint = _Joint(rows, how, j)
+        turning[j] = joint.turned_later()
+        widths[j] = joint.width(modelled[:, j])
+    return (widths if np.any(widths > sharp_width(arm)) else None), turning
 
 
 class _Joint:
-    """The rows of one joint, in which widths compete."""
+    """The rows of one joint, in which widths and moments compete."""
 
     def __init__(self, rows: MotionRows, how: Preparation, j: int) -> None:
-        self.rows, self.how, self.j = rows, how, j
+        self.rows, self.how, self.j, self.turning = rows, how, j, 0.0
         arm = rows.layout.arm
         self.usual, self.sharp = float(coulomb_width(arm)[j]), float(sharp_width(arm)[j])
         self.moving = np.flatnonzero(rows.moving[:, j])
-        others = ~np.isin(rows.at[j], OWN * j + np.array(SIDES))
-        own = rows.columns[j][self.moving][:, others].astype(np.float64)
-        self.basis = orth(own / np.maximum(np.linalg.norm(own, axis=0), 1e-300))
-        self.left = self.apart(rows.torque[self.moving, j] - rows.nominal[self.moving, j])
+        own = rows.columns[j][self.moving].astype(np.float64)
+        sides = np.isin(rows.at[j], OWN * j + np.array(SIDES))
+        self.basis = orth(own[:, ~sides] / np.maximum(np.linalg.norm(own[:, ~sides], axis=0), 1e-300))
+        stated = np.nan_to_num(arm.stated_background[j, DRY]) * own[:, np.searchsorted(rows.at[j], OWN * j + DRY)]
+        self.left = self.apart(rows.torque[self.moving, j] - rows.nominal[self.moving, j] + stated)
         per_cycle = how.rate / how.every / how.cutoff
         self.independent = len(self.moving) * min(FILTER.rows_per_cutoff / per_cycle, 1.0)
 
+    @property
+    def is_told(self) -> bool:
+        """Whether there are more rows than columns."""
+        return bool(len(self.moving) > self.rows.columns[self.j].shape[1])
+
+    def turned_later(self) -> float:
+        """Seconds by which its friction changes sides later than the speed, if clearly any of those that are tried.
+
+        All its torque may be late, too, which the slope of what masses ask for tells.
+        """
+        if not self.is_told:
+            return 0.0
+        late, cost = self.apart(-np.gradient(self.rows.nominal[:, self.j])[self.moving, None]), {}
+        for self.turning in LIBRARY.turnings_s:
+            cost[self.turning] = self.cost(np.hstack([self.formed(functools.partial(_turns, width=self.sharp)), late]))
+        best = min(cost, key=cost.__getitem__)
+        self.turning = best if cost[best] < cost[0.0] - INDISTINGUISHABLE_NATS else 0.0
+        return self.turning
+
     def width(self, modelled: Array) -> float:
         """The width that the rows ask for; the sharp one where none does clearly."""
-        if len(self.moving) <= self.rows.columns[self.j].shape[1]:
+        if not self.is_told:
             return self.sharp
         fastest = float(np.percentile(np.abs(self.rows.dq[self.moving, self.j]), 95)) / LIBRARY.slow
         tried = [width for width in self.usual * np.array(FILTER.wider) if width <= fastest]
-        sides = self.formed(functools.partial(_sides, width=self.sharp))
+        sides = self.formed(functools.partial(_later, width=self.sharp))
         usual = self.formed(functools.partial(_sides, width=self.usual))
         beside = [self.formed(law) for law in _laws(self.sharp, LIBRARY.slow * self.usual, LIBRARY.slow * fastest)]
         beside += [usual, self.apart(-np.gradient(modelled)[self.moving, None])]
         least = min(self.cost(np.hstack([sides, each])) for each in (sides[:, :0], *beside))
-        cost = {width: self.cost(self.formed(functools.partial(_sides, width=width))) for width in tried}
+        cost = {width: self.cost(self.formed(functools.partial(_later, width=width))) for width in tried}
         best = min(cost, key=cost.__getitem__, default=self.sharp)
         return best if cost.get(best, np.inf) < least - INDISTINGUISHABLE_NATS else self.sharp
 
     def formed(self, law: OfSpeed) -> Array:
         """(moving, c) rows of what a law makes of samples, beyond what the joint's other columns have of them."""
-        j, made = [self.j], []
+        j, ago, made = [self.j], np.zeros(self.rows.q.shape[1]), []
+        ago[j] = self.turning
         for each in self.rows.samples:
-            own = replace(each.signals, dq=each.signals.dq[:, j], ddq=each.signals.ddq[:, j])
+            before = motion_before(each.signals, ago)
+            own = replace(each.signals, dq=before.dq[:, j], ddq=before.ddq[:, j])
             made.append(self.how.low_passed(law(own), own.kept, own.stride))
         return self.apart(np.concatenate(made)[self.moving])
 
@@ -123,3 +151,15 @@ def _grown(signals: Signals, width: float, power: float) -> Array:
 
 def _sides(signals: Signals, width: float) -> Array:
     return side(signals, np.array([width]))
+
+
+def _later(signals: Signals, width: float) -> Array:
+    """Its side, and how that changes with the moment."""
+    sides = _sides(signals, width)
+    return np.hstack([sides, -np.gradient(sides, signals.period, axis=0)])
+
+
+def _turns(signals: Signals, width: float) -> Array:
+    """Besides, with the time over which it changes sides."""
+    both = _later(signals, width)
+    return np.hstack([both, np.gradient(both[:, 1:], signals.period, axis=0)])

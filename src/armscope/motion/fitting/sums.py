@@ -98,7 +98,9 @@ class _Joint:
         self.columns, self.weight = without(rows.columns[joint]), row[:, joint]
         self.response = without(rows.torque[:, joint] - rows.nominal[:, joint])
         self.change, self.fresh = self.weight, np.arange(self.columns.shape[1])
+        self.moved = False
         if earlier is not None:
+            self.moved = not np.array_equal(earlier.rows.nominal[:, joint], rows.nominal[:, joint])
             self.change = self.weight - earlier.row[:, joint]
             old = earlier.rows.columns[joint]
             same = old is rows.columns[joint]
@@ -113,7 +115,7 @@ class _Joint:
         found = self._added(before.G.copy(), moved, self.change, n, before)
         if len(self.fresh):
             self._renew(found, which)
-        return found
+        return self._with_response(found, which) if self.moved else found
 
     def _added(
         self, G: Array, which: Indices, weight: Array, n: float, before: NormalEquations | None = None
@@ -129,6 +131,12 @@ class _Joint:
                 b += sign * (X.T @ y)
                 yy += sign * float(y @ y)
         return NormalEquations(G, b, yy, n)
+
+    def _with_response(self, sums: NormalEquations, which: Indices) -> NormalEquations:
+        """The sums, with what the response is now."""
+        y = self.response[which] * self.weight[which]
+        b = np.asarray(self.columns[which].T @ y, dtype=np.float64)
+        return replace(sums, b=b, yy=float(y @ self.response[which]))
 
     def _renew(self, sums: NormalEquations, which: Indices) -> None:
         """What columns that are other functions now have with all, in place."""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
+from armscope.motion.constants import LIBRARY
 from armscope.motion.library.clauses import Numbers, amount, holds_zero
 from armscope.motion.verdict import FoundCause
 from armscope.verdict.effects import Parameter
 
 UNITS_OF_TORQUE = {"kgf m": 1 / 9.80665, "lbf in": 8.850746}
 """Per N m, as defined; an lbf ft is near enough to a gain that is off by a quarter."""
-SAME_UNIT = 0.05
-"""By how much of it a gain may differ from such a unit: masses are known to some percent."""
 
 
 def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
@@ -20,13 +19,13 @@ def gain_clause(cause: FoundCause, numbers: Numbers) -> str:
         off = "" if holds_zero(size) else f", and its size {amount(size)} too {'large' if size.value > 0 else 'small'}"
         return f"the sign of the recorded torque of {cause.location} is turned{off}"
     shown = Parameter("gain", "%", 100 * gain.value, 100 * gain.stderr)
-    side, unit = "large" if gain.value > 0 else "small", unit_of(gain)
+    side, unit = "large" if gain.value > 0 else "small", other_unit(gain)
     return f"the recorded torque of {cause.location} is {amount(shown)} too {side}{f': as in {unit}' if unit else ''}"
 
 
-def unit_of(gain: Parameter) -> str:
+def other_unit(gain: Parameter) -> str:
     """Another unit of torque that recorded numbers are in by a gain; empty where none fits."""
-    alike = (name for name, per_nm in UNITS_OF_TORQUE.items() if abs((1 + gain.value) / per_nm - 1) < SAME_UNIT)
+    alike = (name for name, per_nm in UNITS_OF_TORQUE.items() if abs((1 + gain.value) / per_nm - 1) < LIBRARY.same_unit)
     return next(alike, "")
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from armscope.motion.library.clauses import ALL_JOINTS, Numbers, amount
-from armscope.motion.library.clauses_of_gains import is_turned, turned_size, unit_of
+from armscope.motion.library.clauses_of_gains import is_turned, other_unit, turned_size
 from armscope.recordings.motions import torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.robot.model import dh_halves
@@ -82,7 +82,7 @@ def by_factor(fitted: Fitted) -> str:
     if fitted.first.value <= -1:
         return fitted.cure
     factor = 1 / (1 + fitted.first.value)
-    unit = "" if fitted.currents else unit_of(fitted.first)
+    unit = "" if fitted.currents else other_unit(fitted.first)
     if unit:
         return f"Multiply the recorded torque by {factor:.3f}; was it recorded in {unit}, write it in N m."
     return f"Multiply the joint's torque constant, and so the recorded torque, by {factor:.3f}."

@@ -10,8 +10,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.inference.search import Search
-from armscope.motion.constants import CONSISTENCY
 from armscope.motion.fitting.consistency import sizes_by_block
+from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import LASTING

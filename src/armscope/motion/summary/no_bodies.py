@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.motion.constants import CONSISTENCY
+from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.refining import carried_in, sits_nowhere
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue

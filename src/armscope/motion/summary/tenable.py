@@ -17,8 +17,9 @@ from armscope.core.types import Array
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.motion.constants import CONSISTENCY, PRIOR
+from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.consistency import agreement
+from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.near_reversals import told_by_reversals_alone
 from armscope.motion.fitting.refining import is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
