@@ -11,7 +11,7 @@ from armscope.motion.library.dry_friction import DryFriction, own_columns
 from armscope.motion.samples.preparation import Signals, without_lag
 from tests.motion.moving import robot
 
-RATE, LATE_S, DRY, VISCOUS = 100.0, 0.0337, 5.0, 2.0
+RATE, LATE_S, DRY, VISCOUS, HZ = 100.0, 0.0337, 5.0, 2.0, 10.0
 ARM = robot()
 
 
@@ -55,7 +55,7 @@ def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
     signals = motion(RATE)
     dry, both = DryFriction.of(ARM, np.full(3, DRY)), torques(signals)
     late = 5 / RATE
-    rounded = dry.rounded(signals, both, np.array([0.0, late, 0.0]), RATE)
+    rounded = dry.rounded(signals, both, np.array([0.0, late, 0.0]), HZ)
     assert rounded[20:-20, 1] == pytest.approx(rounded[15:-25, 0], abs=0.02 * np.abs(rounded).max())
     assert np.array_equal(rounded[:, 0], rounded[:, 2])
 
@@ -88,5 +88,5 @@ def test_dry_friction_has_no_part_in_what_drives_round_off() -> None:
     signals, none = motion(RATE), np.zeros(3)
     dry = DryFriction.of(ARM, np.full(3, DRY), 0.01)
     both = DRY * np.column_stack([dry.side(signals, joint) for joint in range(3)]) + VISCOUS * signals.dq
-    smooth = DryFriction.of(ARM, none).rounded(signals, VISCOUS * signals.dq, none, RATE)
-    assert dry.rounded(signals, both, none, RATE) == pytest.approx(smooth, abs=1e-6)
+    smooth = DryFriction.of(ARM, none).rounded(signals, VISCOUS * signals.dq, none, HZ)
+    assert dry.rounded(signals, both, none, HZ) == pytest.approx(smooth, abs=1e-6)

@@ -182,8 +182,8 @@ def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows])
         if np.any(moved := (fresh[:, own] - old[:, own]) @ stated[j]):  # friction that is stated turns as late
             nominal = nominal.copy() if nominal is before.nominal else nominal
             nominal[:, j] += moved
-    of = {"gain": pieces[0].gain, "turning": pieces[0].turning}
-    return replace(before, layout=layout, columns=tuple(columns), nominal=nominal, **of)
+    of = replace(before, gain=pieces[0].gain, turning=pieces[0].turning)
+    return replace(of, layout=layout, columns=tuple(columns), nominal=nominal)
 
 
 def _stated(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:
@@ -228,7 +228,7 @@ class _Piece:
             read=stated + self._friction(np.nan_to_num(arm.stated_background)),
         )
         smooth = model.smooth.with_laws(moment)
-        self.rounded = dry.rounded(signals, smooth.predicted, model.delay, rate)
+        self.rounded = dry.rounded(signals, smooth.predicted, model.delay, how.motion_hz)
         self.moment = model.rippled.with_laws(smooth)
 
     def _friction(self, numbers: Array) -> Array:

@@ -47,7 +47,7 @@ def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Prepar
         how: filters and decimation.
 
     Returns:
-        (m,) rad/s (m/s), None where all friction changes sides as sharply as fits take it to; and (m,) s, to begin with.
+        (m,) rad/s (m/s), None where all friction changes sides as sharply as fits take it to; and (m,) s, at first.
     """
     layout = TorqueLayout(arm, (), False)
     rows = build_rows(layout, stretches, how, stated_model(arm))

@@ -9,7 +9,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array
 from armscope.motion.library.sides import sharp_width, side
-from armscope.motion.samples.preparation import Signals
+from armscope.motion.samples.preparation import Signals, without_lag
 from armscope.robot.dynamics import MovingArm
 
 
@@ -80,25 +80,27 @@ class DryFriction:
         """
         return np.asarray(torque - self.torque * side(motion_before(signals, self.turning), self.width))
 
-    def rounded(self, signals: Signals, torque: Array, delay: Array, rate: float) -> Array:
+    def rounded(self, signals: Signals, torque: Array, delay: Array, cutoff: float) -> Array:
         """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
 
         Not of dry friction: over which way it changes sides is each joint's own. Presliding of all joints would be
         taken for a filter of their drives, and a soft drive was named that took it back from the torque of the masses.
+        Nor of what is faster than the motion: noise of the positions is noise of this, and by some of it, taken off
+        again, any model would fit better.
 
         Args:
             signals: N samples.
             torque: (N, m) in time with the motion.
             delay: (m,) s by which each is recorded late: so is what a filter takes of it.
-            rate: samples per second.
+            cutoff: Hz, where the motion ends.
 
         Returns:
             It.
         """
-        smooth, late = self.without(signals, torque), np.flatnonzero(delay)
+        rate, late = 1 / signals.period, np.flatnonzero(delay)
+        smooth = without_lag(self.without(signals, torque), cutoff, rate, int(np.ceil(rate / cutoff)))
         if len(late):
             path = make_interp_spline(signals.time, smooth, k=3)
-            smooth = smooth.copy()
             for j in map(int, late):
                 smooth[:, j] = seen_later(signals.time, path, j, delay[j])
         return np.asarray(np.gradient(np.gradient(smooth, 1 / rate, axis=0), 1 / rate, axis=0))

@@ -107,7 +107,7 @@ class MotionModel:
         moment = followed.smooth.with_laws(moment)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints)
-        total += self.response * dry.rounded(signals, moment.predicted, followed.delay, rate)
+        total += self.response * dry.rounded(signals, moment.predicted, followed.delay, self.how.motion_hz)
         moment = followed.rippled.with_laws(moment)
         true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
         _add(total, true, moment)
