@@ -66,9 +66,9 @@ class LibraryRules(Constants):
     delay_s: float = constant(0.01, "delay that is tried first", "judgement: of drives and field buses", unit="s")
     joints_of_a_clock: int = constant(3, "for one delay of all", "judgement: two may be alike by chance", unit="joints")
     turnings_s: tuple[float, ...] = constant(
-        (-0.008, 0.0, 0.008, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
+        (0.0, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
         "by which friction changes sides later than the speed, that are tried first",
-        "derived: at 25 Hz the slope of a step tells half of such a distance",
+        "derived: at 25 Hz the slope of a step tells half of such a distance; what is nearer is told from none",
         unit="s",
     )
     few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")

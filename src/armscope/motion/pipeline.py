@@ -157,18 +157,15 @@ def diagnose_motion(
     motions, alone = without_spikes(motions)
     motions, turns = counted_on(motions)
     motions, standing = runs_in_motion(motions)
-    for run in settings.held_out:
-        if run not in motions.runs:
-            rule = f"{motions.source} has no such run in motion"
-            raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
+    _refuse_unknown(settings.held_out, motions)
     progress("laying samples on an even grid", 0.0)
     notices = [Notice("table", note) for note in motions.notes] + alone + turns + standing + check_motions(arm, motions)
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
-    seen = replace(seen_in(arm, train, LIBRARY.still_rad), waves=first.waves, motion_hz=how.motion_hz)
     widths, turning = how_friction_turns(arm, train, how)
-    seen = replace(seen, width_of_sides=widths)
+    seen = seen_in(arm, train, LIBRARY.still_rad)
+    seen = replace(seen, waves=first.waves, motion_hz=how.motion_hz, width_of_sides=widths)
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
@@ -177,8 +174,8 @@ def diagnose_motion(
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
     layout = selected.rows.layout
-    notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout), *told_gains(selected)]
-    notices += load_or_link(selected)
+    notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout)]
+    notices += [*told_gains(selected), *load_or_link(selected)]
     progress("measuring on motion that took no part", 0.75)
     apart = build_rows(layout, test, how, model_of(selected)) if test else None
     verdict, held, entered = _judged(selected, sure, apart, settings)
@@ -195,6 +192,14 @@ def diagnose_motion(
     )
     progress("done", 1.0)
     return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
+
+
+def _refuse_unknown(runs: Sequence[str], motions: Motions) -> None:
+    """Refuse to hold out a run that is not in the table, or in which nothing moves."""
+    for run in runs:
+        if run not in motions.runs:
+            rule = f"{motions.source} has no such run in motion"
+            raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
 
 
 def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) -> SelectedCauses:
