@@ -82,3 +82,15 @@ def test_a_fold_names_nothing_that_is_there_in_its_own_run_only() -> None:
         assert () in competing
         assert (left,) not in competing
     assert found.verdict.held_out.model == pytest.approx(found.verdict.waterfall[-1].held_out, rel=0.02)
+
+
+def test_a_curve_over_time_does_not_compete_where_its_run_is_parted() -> None:
+    """A spline of the first part is a constant in the second, wherever it ended."""
+    for runs, parted in ((1, True), (2, False)):
+        selected = diagnose_motion(robot(), moved(robot(), 1, runs=runs)).selected
+        placed = selected.rows.layout.placed
+        over_time = [n for n, each in enumerate(placed) if each.is_curve and each.driver == "time"]
+        assert len(over_time) == 3
+        assert not selected.best.candidates & set(over_time)
+        for fold in folds(selected):
+            assert all(fold.problem.space.candidates[n].competes is not parted for n in over_time)

@@ -95,13 +95,16 @@ def _of_all_runs(selected: SelectedCauses, problem: Problem, held: tuple[int, ..
     """Without what foretells nothing of the run that is held out, unless all runs together ask for it.
 
     What is there in the only run that is left is the same as in all. What changes while the arm runs is foretold from
-    runs before or after: where friction differs from run to run for another reason, that is by far too much.
+    others: by far too much where friction differs for another reason. A curve over time ends with its part.
     """
-    left = set(selected.rows.run[~np.isin(selected.block, held)].tolist())
+    out = np.isin(selected.block, held)
+    left = set(selected.rows.run[~out].tolist())
+    parted = not left.isdisjoint(selected.rows.run[out].tolist())
     placed, chosen, space = selected.rows.layout.placed, selected.best.candidates, problem.space
-    idle = {n for n, each in enumerate(placed) if left <= set(each.runs) or is_while_running(each.columns)} - chosen
+    idle = {n for n, each in enumerate(placed) if left <= set(each.runs) or is_while_running(each.columns)}
+    idle |= {n for n, each in enumerate(placed) if parted and each.is_curve and each.driver == "time"}
     candidates = tuple(
-        replace(each, competes=each.competes and n not in idle) for n, each in enumerate(space.candidates)
+        replace(each, competes=each.competes and n not in idle - chosen) for n, each in enumerate(space.candidates)
     )
     return replace(problem, space=replace(space, candidates=candidates))
 
