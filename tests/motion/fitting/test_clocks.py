@@ -64,7 +64,7 @@ def test_torques_of_another_clock_are_one_cause(shifted: MotionDiagnosis) -> Non
 def test_torques_behind_one_low_pass_are_one_cause_as_late_as_it_makes_them() -> None:
     found = diagnose_motion(robot(), read_by(filtered)).verdict
     cause, *others = (each for each in found.effects if not each.minor)
-    # a low-pass rounds steps of friction off in its own way: to the third order that may stay, a fiftieth without a name
+    # a low-pass rounds steps of friction off in its own way: of that a fiftieth may stay, without a name
     assert all(each.nameless and each.share < 0.03 for each in others)
     assert (cause.effect, cause.location) == ("torque_delay", "all joints")
     assert cause.parameters[0].value == pytest.approx(2**0.5 / (2 * np.pi * FILTER_HZ), rel=0.15)
