@@ -23,6 +23,7 @@ from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.weights import fitted_together
+from armscope.motion.library.clinging import taken_along
 from armscope.motion.library.dry_friction import motion_before
 from armscope.motion.library.layout import DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import coulomb_width, sharp_width, side
@@ -84,13 +85,19 @@ class _Joint:
     def turned_later(self) -> float:
         """Seconds by which its friction changes sides later than the speed, if clearly any of those that are tried.
 
-        All its torque may be late, too, which the slope of what masses ask for tells.
+        All its torque may be late, too, which the slope of what masses ask for tells. What clings over a way is later
+        the more slowly it turns.
         """
         if not self.is_told:
             return 0.0
         late, cost = self.apart(-np.gradient(self.rows.nominal[:, self.j])[self.moving, None]), {}
+        ways = tuple(np.array(LIBRARY.ways) * np.ptp(self.rows.q[:, self.j]))
+        clings = self.formed(functools.partial(_clings, joint=self.j, ways=ways))
         for self.turning in LIBRARY.turnings_s:
-            cost[self.turning] = self.cost(np.hstack([self.formed(functools.partial(_turns, width=self.sharp)), late]))
+            turned = np.hstack([self.formed(functools.partial(_turns, width=self.sharp)), late])
+            cost[self.turning] = self.cost(turned)
+            if not self.turning:
+                cost[0.0] = min(cost[0.0], self.cost(np.hstack([turned, clings])))
         best = min(cost, key=cost.__getitem__)
         self.turning = best if cost[best] < cost[0.0] - INDISTINGUISHABLE_NATS else 0.0
         return self.turning
@@ -151,6 +158,10 @@ def _grown(signals: Signals, width: float, power: float) -> Array:
 
 def _sides(signals: Signals, width: float) -> Array:
     return side(signals, np.array([width]))
+
+
+def _clings(signals: Signals, joint: int, ways: tuple[float, ...]) -> Array:
+    return taken_along(signals.q[:, joint], ways)
 
 
 def _later(signals: Signals, width: float) -> Array:
