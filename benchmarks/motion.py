@@ -31,7 +31,7 @@ from benchmarks.motion_peers import Problem, Pythons, beside_aurt, compare
 from benchmarks.scale import cost
 
 from armscope.design.fourier import Limits, random_path
-from armscope.motion.fitting.rows import torque_of
+from armscope.motion.fitting.gains import torque_of
 from armscope.motion.samples.timing import mended, stretches
 from armscope.recordings.motions import read_motions
 from armscope.robot.dynamics import MovingArm, load_moving_arm
