@@ -65,6 +65,9 @@ class LibraryRules(Constants):
     )
     delay_s: float = constant(0.01, "delay that is tried first", "judgement: of drives and field buses", unit="s")
     joints_of_a_clock: int = constant(3, "for one delay of all", "judgement: two may be alike by chance", unit="joints")
+    turns_in_s: float = constant(
+        100.0, "of motion, in which it is seen how friction changes sides", "judgement: hundreds of turns", unit="s"
+    )
     turnings_s: tuple[float, ...] = constant(
         (0.0, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
         "by which friction changes sides later than the speed, that are tried first",

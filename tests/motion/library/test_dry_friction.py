@@ -63,11 +63,11 @@ def test_what_is_rounded_off_of_a_late_torque_is_late() -> None:
 def test_a_motion_of_some_time_ago_is_its_own_whatever_was_asked_of_another() -> None:
     signals, inside = motion(RATE), slice(20, -20)
     signals.some_time_ago(0, LATE_S)
-    faster = replace(signals, dq=2 * signals.dq)
+    faster = replace(signals, dq=2 * signals.dq, ddq=2 * signals.ddq)
     speed, acceleration = faster.some_time_ago(0, LATE_S)
     before = signals.time - LATE_S
     np.testing.assert_allclose(speed[inside], 2 * np.sin(2 * before)[inside], atol=1e-5)
-    np.testing.assert_allclose(acceleration[inside], 2 * np.cos(2 * before)[inside], atol=1e-5)
+    np.testing.assert_allclose(acceleration[inside], 4 * np.cos(2 * before)[inside], atol=1e-5)
 
 
 def test_all_that_changes_sides_with_friction_is_later_where_it_turns_later_and_nothing_else() -> None:

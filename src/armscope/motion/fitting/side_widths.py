@@ -51,7 +51,9 @@ def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Prepar
         (m,) rad/s (m/s), None where all friction changes sides as sharply as fits take it to; and (m,) s, at first.
     """
     layout = TorqueLayout(arm, (), False)
-    rows = build_rows(layout, stretches, how, stated_model(arm))
+    seconds = np.cumsum([len(stretch) / stretch.rate for stretch in stretches])
+    enough = 1 + int(np.searchsorted(seconds, LIBRARY.turns_in_s))
+    rows = build_rows(layout, stretches[:enough], how, stated_model(arm))
     modelled = rows.nominal + rows.modelled(fitted_together(rows, np.arange(layout.width)))
     widths, turning = sharp_width(arm), np.zeros(arm.n_motors)
     for j in range(arm.n_motors):

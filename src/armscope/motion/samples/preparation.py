@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, make_interp_spline
+from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import CUTOFF, FILTER, READING
@@ -205,18 +205,16 @@ class Signals:
     cut: NDArray[np.bool_] | None = None
     running: Array | None = None
 
-    @functools.cached_property
-    def _paths(self) -> dict[int, BSpline]:
-        """By joint; these samples' own, which no copy with other numbers takes over."""
-        return {}
-
     def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
-        """(N,) velocity and acceleration of a joint's motor some time ago, s; their spline is made once."""
-        if joint not in self._paths:
-            both = np.column_stack([self.dq[:, joint], self.ddq[:, joint]])
-            self._paths[joint] = make_interp_spline(self.time, both, k=3)
-        before = self._paths[joint](np.clip(self.time - delay, self.time[0], self.time[-1]))
-        return before[:, 0], before[:, 1]
+        """(N,) velocity and acceleration of a joint's motor some time ago, s: a cubic by both between samples."""
+        at = np.clip(np.arange(len(self.time)) - delay / self.period, 0, len(self.time) - 1)
+        low = np.minimum(at.astype(np.intp), len(self.time) - 2)
+        x, v, a = at - low, self.dq[:, joint], self.ddq[:, joint] * self.period
+        apart = v[low + 1] - v[low]
+        speed = v[low] + x * (a[low] + x * (3 * apart - 2 * a[low] - a[low + 1]))
+        speed += x**3 * (a[low] + a[low + 1] - 2 * apart)
+        change = a[low] + 2 * x * (3 * apart - 2 * a[low] - a[low + 1]) + 3 * x**2 * (a[low] + a[low + 1] - 2 * apart)
+        return speed, change / self.period
 
     @property
     def of_links(self) -> tuple[Array, Array, Array]:
