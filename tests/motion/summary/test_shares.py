@@ -127,7 +127,10 @@ def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
         by_orders(*contributions(found.selected)), abs=2e-4
     )
     assert added > 0.1
-    assert f"Masses of the links that are off without a name add {percent(added)}." in found.verdict.headline
+    assert (
+        f"Masses of the links that are off without a name add {percent(added)} of what friction"
+        in found.verdict.headline
+    )
     assert sum(each.share for each in worth) + added < 1  # what either of them explains is not told twice
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from armscope.core.types import Array, Indices
 from armscope.inference.linear_algebra import schur_complement
 from armscope.motion.constants import TELLING
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.library.catalogue import DELAY
 
 
 @dataclass(frozen=True)
@@ -46,23 +48,49 @@ def worth_of(selected: SelectedCauses) -> tuple[list[Worth], float]:
     members = [selected.space.candidates[effect.candidate].columns for effect in best.chosen]
     named = np.concatenate([np.empty(0, dtype=np.intp), *members])
     masses = np.intersect1d(np.setdiff1d(selected.rows.layout.masses, named), best.columns)
-    base = np.setdiff1d(best.columns, np.concatenate([masses, named]))
-    beyond = np.concatenate([named, masses])
+    late = [_friction_of(selected, effect.candidate) for effect in best.chosen]
+    turned = np.concatenate([np.empty(0, dtype=np.intp), *(columns for columns, _ in late)])
+    beyond = np.concatenate([named, masses, turned])
+    base = np.setdiff1d(best.columns, beyond)
     G, b, yy = _beyond(selected, base, beyond)
-    if yy <= 0 or not len(beyond):
+    fitted = best.coefficients(len(problem.scale))[beyond]
+    numbers = np.concatenate([fitted[: len(beyond) - len(turned)], *(by for _, by in late)])
+    pull = b - G @ fitted
+    whole = float(yy - fitted @ (b + pull) + numbers @ (G @ numbers + 2 * pull))
+    if whole <= 0 or not len(beyond):
         return [Worth(0.0, 0.0, True) for _ in members], 0.0
-    numbers = best.coefficients(len(problem.scale))[beyond]
-    parts = np.split(np.arange(len(beyond)), np.cumsum([len(columns) for columns in members], dtype=np.intp))
-    each = numbers * (2 * b - G @ numbers) / yy
+    parts = np.split(np.arange(len(named) + len(masses)), np.cumsum([len(columns) for columns in members]))
+    extra = np.split(len(named) + len(masses) + np.arange(len(turned)), np.cumsum([len(by) for _, by in late]))[:-1]
+    parts = [np.concatenate([own, more]) for own, more in zip(parts, [*extra, []], strict=True)]
+    return _told([part.astype(np.intp) for part in parts], numbers, (G, pull), whole)
+
+
+def _told(
+    parts: Sequence[Indices], numbers: Array, sums: tuple[Array, Array], whole: float
+) -> tuple[list[Worth], float]:
+    """Of each part but the last its worth; and the last one's share."""
+    G, pull = sums
+    each = numbers * (G @ numbers + 2 * pull) / whole
     shares = [float(each[part].sum()) for part in parts]
-    sizes = [float(numbers[part] @ G[np.ix_(part, part)] @ numbers[part]) / yy for part in parts]
-    seen, cured, left = np.full(len(parts), False), np.zeros_like(numbers), 1.0
+    sizes = [float(numbers[part] @ G[np.ix_(part, part)] @ numbers[part]) / whole for part in parts]
+    seen, there, left = np.full(len(parts), False), numbers.copy(), 1.0
     for n in np.argsort(shares)[::-1]:
-        cured[parts[n]] = numbers[parts[n]]
-        before, left = left, 1 - float(cured @ (2 * b - G @ cured)) / yy
+        there[parts[n]] = 0.0
+        before, left = left, 1 + float(there @ (G @ there + 2 * pull) - numbers @ (G @ numbers + 2 * pull)) / whole
         seen[n] = max(shares[n], sizes[n]) >= TELLING.minor_share or before - left >= TELLING.of_the_rest * before
     told = zip(shares[:-1], sizes[:-1], seen[:-1], strict=True)
     return [Worth(share, size, not is_seen) for share, size, is_seen in told], shares[-1]
+
+
+def _friction_of(selected: SelectedCauses, number: int) -> tuple[Indices, Array]:
+    """Columns by which dry friction turns later, and how much later a delay has it: who shifts a torque shifts all."""
+    placed, layout = selected.rows.layout.placed[number], selected.rows.layout
+    if placed.cause is not DELAY:
+        return np.empty(0, dtype=np.intp), np.empty(0)
+    joints = list(placed.joints)
+    columns = layout.reversals[joints, 1]
+    by = selected.dry[joints] * selected.coefficients[layout.columns[number][0]]
+    return columns, by * selected.problem.scale[columns]
 
 
 def _beyond(selected: SelectedCauses, base: Indices, columns: Indices) -> tuple[Array, Array, float]:
