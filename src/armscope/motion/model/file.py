@@ -116,8 +116,8 @@ def _inertial_out(inertial: Array) -> list[InertialFile]:
 
 
 def is_motion_model(content: Any) -> bool:
-    """Whether the content of a YAML file is a model of a motion."""
-    return isinstance(content, dict) and content.get("format") == FORMAT
+    """Whether the content of a YAML file is a model of a motion, of whichever version."""
+    return isinstance(content, dict) and str(content.get("format")).rpartition(" ")[0] == FORMAT.rpartition(" ")[0]
 
 
 def load_motion_model(path: Path | str) -> MotionModel:
@@ -127,10 +127,10 @@ def load_motion_model(path: Path | str) -> MotionModel:
         InputError: it is no model of this format, or says what its arm can't have.
     """
     content = read_yaml(path)
-    if not is_motion_model(content):
+    if not is_motion_model(content) or content["format"] != FORMAT:
         found = format_of(content)
         rule = f"a model of a motion says `format: {FORMAT}`"
-        raise InputError(path, "format", found, rule, "`armscope diagnose motions.csv` writes one.")
+        raise InputError(path, "format", found, rule, "`armscope diagnose motions.csv` of today writes one.")
     file = validate(MotionModelFile, content, path)
     arm = build_moving_arm(file.robot, path)
     for place, count, wanted in (("joints", len(file.joints), arm.n_motors), ("links", len(file.links), arm.n_links)):
