@@ -69,11 +69,18 @@ class LibraryRules(Constants):
         100.0, "of motion, in which it is seen how friction changes sides", "judgement: hundreds of turns", unit="s"
     )
     turnings_s: tuple[float, ...] = constant(
-        (0.0, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
+        (0.0, 0.008, 0.016, 0.024, 0.032, 0.04, 0.048, 0.056),
         "by which friction changes sides later than the speed, that are tried first",
-        "derived: at 25 Hz the slope of a step tells half of such a distance; what is nearer is told from none",
+        "derived: at 25 Hz the slope of a step tells half of such a distance",
         unit="s",
     )
+    filters_s: tuple[float, ...] = constant(
+        (0.004, 0.006, 0.008, 0.01, 0.012, 0.016, 0.02, 0.024, 0.032),
+        "by which one low-pass of all torques makes them late, that are tried first",
+        "judgement: drives and sensors filter at 5 to 50 Hz",
+        unit="s",
+    )
+    turning_steps: int = constant(3, "towards it from there", "judgement: it rests by then", unit="steps")
     few_waves: int = constant(60, "per turn that always compete", "judgement: gears' and motors' low harmonics")
     most_waves: int = constant(400, "per turn that are tried", "derived: two per motor turn behind a gear of 200 to 1")
     waves_at_once: int = constant(50, "formed at a time", "judgement: memory; 30,000 samples of these are 24 MB")

@@ -69,7 +69,9 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
             better = better if better > 0 else now
         else:
             by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
-            better, rests = now * np.exp(by), abs(values[1]) < NOISE.settled * error[1]
+            fastest = float(np.abs(selected.rows.dq[:, cause.joints[0]]).max())
+            better = min(now * np.exp(by), max(fastest / 2, now))  # beyond, it is dry friction over again
+            rests = abs(values[1]) < NOISE.settled * error[1] or better == now
         scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
         moved = moved or not rests

@@ -12,7 +12,7 @@ from armscope.core.types import Array, Indices, Progress, unheard
 from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.fitting.pauses import Pauses, joined, pauses_of, stands
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import DryFriction, own_columns
+from armscope.motion.library.dry_friction import DryFriction, Turning, own_columns
 from armscope.motion.library.laws import FOLLOWS_MODEL, Law
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.samples.preparation import Preparation, Signals, parts
@@ -204,16 +204,18 @@ class _Piece:
         self.turning = np.zeros(layout.arm.n_motors) if model.turning is None else model.turning
         arm, signals = layout.arm, samples.signals
         self.arm, self.signals = arm, signals
-        self.background = own_columns(arm, signals, self.turning, layout.width_of_sides)
+        turning = Turning.of(arm, self.turning, layout.width_of_sides, layout.order_of_sides)
+        self.background = own_columns(signals, turning)
         inertial = model.inertial_in(signals.run)
         rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
         bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
-        rigid = rigid + samples.carried + model.carried(signals, bodies)
+        changing = model.carried(signals, bodies)
+        rigid = rigid + samples.carried + changing
         friction, stated = self._friction(model.background), samples.torque + samples.carried
         gravity = None
         if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
             gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
-        dry = DryFriction.of(arm, model.background[:, 1], self.turning, layout.width_of_sides)
+        dry = DryFriction(model.background[:, 1], turning)
         rate = how.rate / signals.stride
         moment = Moment(
             signals=signals,
@@ -228,7 +230,7 @@ class _Piece:
             read=stated + self._friction(np.nan_to_num(arm.stated_background)),
         )
         smooth = model.smooth.with_laws(moment)
-        self.rounded = dry.rounded(signals, smooth.predicted, model.delay, how.motion_hz)
+        self.rounded = dry.rounded(signals, smooth.predicted - changing, model.delay, how.motion_hz)
         self.moment = model.rippled.with_laws(smooth)
 
     def _friction(self, numbers: Array) -> Array:

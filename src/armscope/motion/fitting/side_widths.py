@@ -12,6 +12,7 @@ would not lead there.
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
@@ -19,12 +20,12 @@ import numpy as np
 from scipy.linalg import orth
 
 from armscope.core.types import Array
-from armscope.motion.constants import LIBRARY
+from armscope.motion.constants import LIBRARY, PRIOR
 from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.clinging import taken_along
-from armscope.motion.library.dry_friction import motion_before
+from armscope.motion.library.dry_friction import LATE_BY_ORDER, Turning, is_shown, motion_before, passed
 from armscope.motion.library.layout import DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import coulomb_width, sharp_width, side
 from armscope.motion.samples.constants import FILTER
@@ -39,8 +40,8 @@ SIDES = [DRY, ROUNDER, LATER]
 """Numbers of dry friction, and of how and when it changes sides, among a joint's own columns."""
 
 
-def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> tuple[Array | None, Array]:
-    """Within which speed, and how much later than it, each joint's dry friction changes sides.
+def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> Turning:
+    """Within which speed, how much later than it, and behind which low-pass each joint's dry friction changes sides.
 
     Args:
         arm: the arm.
@@ -48,26 +49,45 @@ def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Prepar
         how: filters and decimation.
 
     Returns:
-        (m,) rad/s (m/s), None where all friction changes sides as sharply as fits take it to; and (m,) s, at first.
+        It; how much later is a first guess.
     """
     layout = TorqueLayout(arm, (), False)
     seconds = np.cumsum([len(stretch) / stretch.rate for stretch in stretches])
     enough = 1 + int(np.searchsorted(seconds, LIBRARY.turns_in_s))
     rows = build_rows(layout, stretches[:enough], how, stated_model(arm))
     modelled = rows.nominal + rows.modelled(fitted_together(rows, np.arange(layout.width)))
-    widths, turning = sharp_width(arm), np.zeros(arm.n_motors)
-    for j in range(arm.n_motors):
-        joint = _Joint(rows, how, j)
-        turning[j] = joint.turned_later()
-        widths[j] = joint.width(modelled[:, j])
-    return (widths if np.any(widths > sharp_width(arm)) else None), turning
+    joints = [_Joint(rows, how, j) for j in range(arm.n_motors)]
+    shifts = [joint.shifted_later() for joint in joints]
+    late, order = _one_filter([(joint, cost) for joint, (cost, _) in zip(joints, shifts, strict=True) if joint.is_told])
+    for joint, (_, own) in zip(joints, shifts, strict=True):
+        joint.late, joint.order = (late, order) if order else (own, 0)
+    widths = [joint.width(modelled[:, j]) for j, joint in enumerate(joints)]
+    lates, orders = ([getattr(joint, name) for joint in joints] for name in ("late", "order"))
+    return Turning(np.array(widths), np.array(lates), np.array(orders, dtype=np.intp))
+
+
+def _one_filter(shifted: Sequence[tuple[_Joint, float]]) -> tuple[float, int]:
+    """Seconds and order of a low-pass that all torques pass; 0, 0 where there is none.
+
+    Friction that clings is like a low-pass of each joint's own. One of all is there only where it is as good as what
+    suits each joint best by itself, a shift or another low-pass, and clearly better than shifts.
+    """
+    if len(shifted) < LIBRARY.joints_of_a_clock:
+        return 0.0, 0
+    tried = list(itertools.product(LIBRARY.filters_s, LATE_BY_ORDER))
+    cost = np.array([[joint.turning_at(*each)[0] for each in tried] for joint, _ in shifted])
+    shifts = np.array([cost for _, cost in shifted])
+    common, own = cost.sum(axis=0), float(np.minimum(cost.min(axis=1), shifts).sum())
+    best = int(common.argmin())
+    alike = common[best] < own + INDISTINGUISHABLE_NATS * len(shifted)
+    return tried[best] if alike and common[best] < shifts.sum() - INDISTINGUISHABLE_NATS else (0.0, 0)
 
 
 class _Joint:
     """The rows of one joint, in which widths and moments compete."""
 
     def __init__(self, rows: MotionRows, how: Preparation, j: int) -> None:
-        self.rows, self.how, self.j, self.turning = rows, how, j, 0.0
+        self.rows, self.how, self.j, self.late, self.order = rows, how, j, 0.0, 0
         arm = rows.layout.arm
         self.usual, self.sharp = float(coulomb_width(arm)[j]), float(sharp_width(arm)[j])
         self.moving = np.flatnonzero(rows.moving[:, j])
@@ -76,6 +96,7 @@ class _Joint:
         self.basis = orth(own[:, ~sides] / np.maximum(np.linalg.norm(own[:, ~sides], axis=0), 1e-300))
         stated = np.nan_to_num(arm.stated_background[j, DRY]) * own[:, np.searchsorted(rows.at[j], OWN * j + DRY)]
         self.left = self.apart(rows.torque[self.moving, j] - rows.nominal[self.moving, j] + stated)
+        self.slope = self.apart(-np.gradient(rows.nominal[:, j])[self.moving, None])
         per_cycle = how.rate / how.every / how.cutoff
         self.independent = len(self.moving) * min(FILTER.rows_per_cutoff / per_cycle, 1.0)
 
@@ -84,25 +105,39 @@ class _Joint:
         """Whether there are more rows than columns."""
         return bool(len(self.moving) > self.rows.columns[self.j].shape[1])
 
-    def turned_later(self) -> float:
-        """Seconds by which its friction changes sides later than the speed, if clearly any of those that are tried.
+    def shifted_later(self) -> tuple[float, float]:
+        """What its friction costs, and by how many s it changes sides later than the speed, 0 where it is not clear.
 
-        All its torque may be late, too, which the slope of what masses ask for tells. What clings over a way is later
-        the more slowly it turns.
+        What clings over a way is later the more slowly it turns, and is no shift.
         """
         if not self.is_told:
-            return 0.0
-        late, cost = self.apart(-np.gradient(self.rows.nominal[:, self.j])[self.moving, None]), {}
+            return 0.0, 0.0
         ways = tuple(np.array(LIBRARY.ways) * np.ptp(self.rows.q[:, self.j]))
         clings = self.formed(functools.partial(_clings, joint=self.j, ways=ways))
-        for self.turning in LIBRARY.turnings_s:
-            turned = np.hstack([self.formed(functools.partial(_turns, width=self.sharp)), late])
-            cost[self.turning] = self.cost(turned)
-            if not self.turning:
-                cost[0.0] = min(cost[0.0], self.cost(np.hstack([turned, clings])))
-        best = min(cost, key=cost.__getitem__)
-        self.turning = best if cost[best] < cost[0.0] - INDISTINGUISHABLE_NATS else 0.0
-        return self.turning
+        in_time = np.hstack([self.formed(functools.partial(_turns, width=self.sharp)), self.slope])
+        none = min(self.cost(in_time), self.cost(np.hstack([in_time, clings])))
+        found = [(*self.turning_at(late), late) for late in LIBRARY.turnings_s]
+        for _ in range(LIBRARY.turning_steps):
+            _, step, late = min(found)
+            late = float(np.clip(late + step, -PRIOR.longest_turning_s, PRIOR.longest_turning_s))
+            found.append((*self.turning_at(late), late))
+        cost, _, late = min(found)
+        return (cost, late) if cost < none - INDISTINGUISHABLE_NATS else (none, 0.0)
+
+    def turning_at(self, late: float, order: int = 0) -> tuple[float, float]:
+        """What friction costs that changes sides so, all its torque being late, too; and by how many s it is later.
+
+        It takes some time, or none: what is sharper than a step is no friction.
+        """
+        self.late, self.order = late, order
+        if order and not is_shown(order, late, self.rows.samples[0].signals.period):
+            return np.inf, 0.0
+        columns = np.hstack([self.slope, self.formed(functools.partial(_turns, width=self.sharp))])
+        _, dry, later, over = np.linalg.lstsq(columns, self.left, rcond=None)[0]
+        if over * dry < 0:
+            columns = columns[:, :-1]
+            _, dry, later = np.linalg.lstsq(columns, self.left, rcond=None)[0]
+        return self.cost(columns), float(later / dry) if dry > 0 else 0.0
 
     def width(self, modelled: Array) -> float:
         """The width that the rows ask for; the sharp one where none does clearly."""
@@ -122,11 +157,14 @@ class _Joint:
     def formed(self, law: OfSpeed) -> Array:
         """(moving, c) rows of what a law makes of samples, beyond what the joint's other columns have of them."""
         j, ago, made = [self.j], np.zeros(self.rows.q.shape[1]), []
-        ago[j] = self.turning
+        ago[j] = self.late if not self.order else 0.0
         for each in self.rows.samples:
             before = motion_before(each.signals, ago)
             own = replace(each.signals, dq=before.dq[:, j], ddq=before.ddq[:, j])
-            made.append(self.how.low_passed(law(own), own.kept, own.stride))
+            columns = law(own)
+            if self.order:
+                columns = np.column_stack([passed(c, self.order, self.late, 1 / own.period) for c in columns.T])
+            made.append(self.how.low_passed(columns, own.kept, own.stride))
         return self.apart(np.concatenate(made)[self.moving])
 
     def apart(self, values: Array) -> Array:

@@ -52,5 +52,5 @@ def smooth_torque(m: Moment, joint: int, cutoff: float) -> Array:
         Torque, N m (N).
     """
     torque = m.predicted[:, joint]
-    dry = m.dry.torque[joint] * m.dry.side(m.signals, joint) if m.dry is not None else 0.0
+    dry = m.dry.of_joint(m.signals, joint) if m.dry is not None else 0.0
     return without_lag(torque - dry, cutoff, m.rate, int(np.ceil(m.rate / cutoff))) + dry

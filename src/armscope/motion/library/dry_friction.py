@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.motion.library.sides import sharp_width, side
+from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Signals, without_lag
 from armscope.robot.dynamics import MovingArm
 
@@ -32,41 +33,78 @@ def seen_later(time: Array, path: BSpline, joint: int, delay: float) -> Array:
     return np.asarray(own(np.clip(time - delay, time[0], time[-1])))
 
 
+LATE_BY_ORDER = {1: 1.0, 2: 2.0**0.5}
+"""By how much a Butterworth low-pass of an order makes what is slow late, in units of one over its angular cut-off."""
+
+
 @dataclass(frozen=True, eq=False)
-class DryFriction:
-    """Of m joints.
+class Turning:
+    """How dry friction of m joints changes sides.
 
     Attributes:
-        torque: (m,) N m (N).
-        width: (m,) rad/s (m/s) within which it changes sides.
-        turning: (m,) s by which it changes sides later than the speed.
+        width: (m,) rad/s (m/s) within which it does.
+        late: (m,) s by which it does later than the speed.
+        order: (m,) of a low-pass that makes it so; 0: it is shifted as it is.
     """
 
-    torque: Array
     width: Array
-    turning: Array
+    late: Array
+    order: Indices
 
     @classmethod
-    def of(cls, arm: MovingArm, torque: Array, turning: Array | float = 0.0, width: Array | None = None) -> DryFriction:
-        """As sharp as fits take it to be, or within a width.
+    def of(
+        cls, arm: MovingArm, late: Array | float = 0.0, width: Array | None = None, order: Indices | None = None
+    ) -> Turning:
+        """As sharp as fits take it to be, in time and unfiltered, where nothing else is given.
 
         Args:
             arm: the arm.
-            torque: (m,) N m (N).
-            turning: (m,) s by which it changes sides later than the speed.
-            width: (m,) rad/s (m/s) within which it changes sides.
+            late, width, order: as they are here.
 
         Returns:
             It.
         """
-        width = sharp_width(arm) if width is None else width
-        return cls(torque, width, np.broadcast_to(np.asarray(turning, dtype=float), torque.shape))
+        late = np.broadcast_to(np.asarray(late, dtype=float), (arm.n_motors,))
+        order = np.zeros(arm.n_motors, dtype=np.intp) if order is None else order
+        return cls(sharp_width(arm) if width is None else width, late, order)
 
-    def side(self, signals: Signals, joint: int) -> Array:
-        """(N,) side of a joint's friction, -1 ... 1."""
-        before = motion_before(signals, self.turning)
-        own = replace(before, dq=before.dq[:, [joint]], ddq=before.ddq[:, [joint]])
-        return side(own, self.width[[joint]])[:, 0]
+    def wide(self, arm: MovingArm) -> Array | None:
+        """(m,) widths; None where all are as sharp as fits take them to be."""
+        return self.width if np.any(self.width > sharp_width(arm)) else None
+
+    def sides(self, signals: Signals) -> Array:
+        """(N, m) sides of friction, -1 ... 1."""
+        known = zip(self.order, self.late, strict=True)
+        filtered = np.array([is_shown(int(order), late, signals.period) for order, late in known])
+        sides = side(motion_before(signals, np.where(filtered, 0.0, self.late)), self.width)
+        for j in np.flatnonzero(filtered):
+            sides[:, j] = passed(sides[:, j], int(self.order[j]), float(self.late[j]), 1 / signals.period)
+        return sides
+
+
+def is_shown(order: int, late: float, period: float) -> bool:
+    """Whether samples that far apart, s, show a low-pass; what is later or sooner otherwise is shifted."""
+    return order > 0 and LATE_BY_ORDER[order] * period < np.pi * FILTER.nyquist * late
+
+
+def passed(values: Array, order: int, late: float, rate: float) -> Array:
+    """Samples (N,) behind a causal low-pass of an order that makes what is slow late by some seconds."""
+    from scipy.signal import butter, lfilter, lfilter_zi  # take long to import: most commands need none
+
+    b, a = butter(order, LATE_BY_ORDER[order] / late, fs=2 * np.pi * rate)
+    return np.asarray(lfilter(b, a, values, zi=lfilter_zi(b, a) * values[0])[0])
+
+
+@dataclass(frozen=True, eq=False)
+class DryFriction:
+    """Of m joints: its torque (m,), N m (N), and how it changes sides."""
+
+    torque: Array
+    turning: Turning
+
+    def of_joint(self, signals: Signals, joint: int) -> Array:
+        """(N,) N m (N) of a joint."""
+        return np.asarray(self.torque[joint] * self.turning.sides(signals)[:, joint])
 
     def without(self, signals: Signals, torque: Array) -> Array:
         """(N, m) torques without their dry friction: what is smooth of them.
@@ -78,7 +116,7 @@ class DryFriction:
         Returns:
             Torque, N m (N).
         """
-        return np.asarray(torque - self.torque * side(motion_before(signals, self.turning), self.width))
+        return np.asarray(torque - self.torque * self.turning.sides(signals))
 
     def rounded(self, signals: Signals, torque: Array, delay: Array, cutoff: float) -> Array:
         """(N, m) second derivative of torques, N m/s^2: what drives' filters and rounding take part of.
@@ -121,20 +159,9 @@ def motion_before(signals: Signals, ago: Array) -> Signals:
     return replace(signals, dq=dq, ddq=ddq)
 
 
-def own_columns(arm: MovingArm, signals: Signals, turning: Array | float = 0.0, width: Array | None = None) -> Array:
-    """What every joint has, per unit of each.
-
-    Args:
-        arm: the arm.
-        signals: N samples.
-        turning: (m,) s by which friction changes sides later than the speed.
-        width: (m,) rad/s (m/s) within which it changes sides; as sharp as fits take it to be where not given.
-
-    Returns:
-        (N, m, 6) of `layout.OWN_NAMES`.
-    """
-    width = sharp_width(arm) if width is None else width
-    turned = side(motion_before(signals, np.broadcast_to(np.asarray(turning, dtype=float), (arm.n_motors,))), width)
+def own_columns(signals: Signals, turning: Turning) -> Array:
+    """(N, m, 6) what every joint has, per unit of each: `layout.OWN_NAMES`."""
+    turned = turning.sides(signals)
     slope = np.gradient(turned, signals.period, axis=0)
     rounder = np.gradient(slope, signals.period, axis=0)
     return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, rounder, -slope], axis=2)

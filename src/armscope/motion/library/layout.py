@@ -39,12 +39,14 @@ class TorqueLayout:
         with_gains: whether torques come from currents, whose gains are known to some percent; else they are read true,
             or all of them a little wrong.
         width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
+        order_of_sides: (m,) of the low-pass by which it does so late; None or 0: it is shifted.
     """
 
     arm: MovingArm
     placed: tuple[PlacedCause, ...]
     with_gains: bool
     width_of_sides: Array | None = None
+    order_of_sides: Indices | None = None
 
     @property
     def own(self) -> Indices:

@@ -58,6 +58,7 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
                 **dict(zip(OWN_NAMES, map(float, own), strict=True)),
                 gain=float(gain),
                 width=width,
+                order=0 if model.order_of_sides is None else int(model.order_of_sides[j]),
             )
             for j, (own, gain, width) in enumerate(zip(model.joints, model.gains, _widths(model), strict=True))
         ),
@@ -149,6 +150,7 @@ def load_motion_model(path: Path | str) -> MotionModel:
         response=file.response_s2,
         links=CauseReader(arm, path).causes(file.twists, "twists"),
         width_of_sides=_width_of_sides(file, arm),
+        order_of_sides=np.array([joint.order for joint in file.joints], dtype=np.intp),
     )
 
 

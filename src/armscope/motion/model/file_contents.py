@@ -34,7 +34,7 @@ class JointFile(Strict):
 
     ``rounder``, ``later``: over how long friction changes sides (N m s^2), and when (N m s); ``gain``: share by which
     recorded torque is too large; ``width``: speed within which friction changes sides, rad/s (m/s), where the motion
-    says so.
+    says so; ``order``: of the low-pass by which it does so late, 0 where it is shifted.
     """
 
     joint: Word
@@ -46,6 +46,7 @@ class JointFile(Strict):
     later: Number
     gain: Number
     width: Positive | None = None
+    order: Annotated[int, Field(ge=0, le=2)] = 0
 
 
 class LinkFile(Strict):

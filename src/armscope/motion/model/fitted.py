@@ -8,13 +8,13 @@ from typing import Literal
 
 import numpy as np
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
-from armscope.motion.library.dry_friction import DryFriction, own_columns, rounded_off
+from armscope.motion.library.dry_friction import DryFriction, Turning, own_columns, rounded_off
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import sharp_width
@@ -41,6 +41,7 @@ class MotionModel:
         causes: the named ones.
         response: by how much of its second derivative drives round a torque off, s^2.
         width_of_sides: (m,) rad/s (m/s) within which friction changes sides; None: as sharply as fits take it to.
+        order_of_sides: (m,) of the low-pass by which it does so late; None or 0: it is shifted.
         links: why links lie beside their motors, rad (m): of joints where both were recorded.
     """
 
@@ -54,6 +55,7 @@ class MotionModel:
     response: float = 0.0
     links: tuple[FittedCause, ...] = ()
     width_of_sides: Array | None = None
+    order_of_sides: Indices | None = None
 
     def followed(self) -> Estimate:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
@@ -95,19 +97,21 @@ class MotionModel:
         if signals.payload is not None:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
-        joints, turning, over = self._turning()
-        own = own_columns(self.arm, signals, turning, self._width())
+        joints, late, over = self._turning()
+        turning = Turning.of(self.arm, late, self._width(), self.order_of_sides)
+        own = own_columns(signals, turning)
         own[:, :, ROUNDER] = rounded_off(own[:, :, DRY], over, signals.period) - own[:, :, DRY]
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
-        rigid = regressor @ followed.inertial_in(signals.run) + carried + followed.carried(signals, bodies)
+        changing = followed.carried(signals, bodies)
+        rigid = regressor @ followed.inertial_in(signals.run) + carried + changing
         friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
-        dry = DryFriction.of(self.arm, followed.background[:, 1], turning, self._width())
+        dry = DryFriction(followed.background[:, 1], turning)
         gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
         moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
         moment = followed.smooth.with_laws(moment)
         total = regressor @ (self.inertial + self._added(signals.run)) + carried
         total += np.einsum("nmk,mk->nm", own, joints)
-        total += self.response * dry.rounded(signals, moment.predicted, followed.delay, self.how.motion_hz)
+        total += self.response * dry.rounded(signals, moment.predicted - changing, followed.delay, self.how.motion_hz)
         moment = followed.rippled.with_laws(moment)
         true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
         _add(total, true, moment)
@@ -198,6 +202,7 @@ def fitted_model(
         response=float(coefficients[layout.response][0]),
         links=links,
         width_of_sides=layout.width_of_sides,
+        order_of_sides=layout.order_of_sides,
     )
 
 

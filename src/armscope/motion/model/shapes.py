@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import own_columns
+from armscope.motion.library.dry_friction import Turning, own_columns
 from armscope.motion.library.laws import Law
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
@@ -28,7 +28,7 @@ def friction_over_speed(model: MotionModel, joint: int, speed: Array) -> Array:
         (N,) N m or N.
     """
     moment = everything_is(speed, model.arm.n_motors)
-    own = own_columns(model.arm, moment.signals, width=model.width_of_sides)[:, joint]
+    own = own_columns(moment.signals, Turning.of(model.arm, width=model.width_of_sides))[:, joint]
     total = own[:, [1, 2, 4]] @ model.joints[joint, [1, 2, 4]]
     for cause in model.causes:
         law = cause.placed.columns
