@@ -142,6 +142,11 @@ class PriorRules(Constants):
     lightest_share: float = constant(
         0.1, "of the mean mass, that a link counts as at least", "judgement: links of a few grams in a file are stubs"
     )
+    reversal: float = constant(
+        0.05,
+        "of a joint's torque: how far the shape of friction's change of sides over speed is free",
+        "judgement: a part of dry friction",
+    )
     turning_s: float = constant(
         0.002,
         "by which a joint's torque may change sides sooner or later than its speed, and over which, unnamed",
@@ -151,11 +156,11 @@ class PriorRules(Constants):
     longest_turning_s: float = constant(
         0.06,
         "by which a joint's friction is taken to change sides later or sooner",
-        "measured: 27 ms at joint 5 of a UR10e; twice as slow a field bus",
+        "judgement: twice the 27 ms that joint 5 of a UR10e was seen to have",
         unit="s",
     )
     reversal_sizes: tuple[float, ...] = constant(
-        (0.0, 1.0, 5.0), "of both, that compete", "judgement: dry friction may be all of a joint's torque"
+        (0.0, 1.0, 5.0), "of all three, that compete", "judgement: dry friction may be all of a joint's torque"
     )
     response: float = constant(
         0.16,

@@ -109,7 +109,7 @@ def test_friction_that_changes_sides_sooner_is_no_clock() -> None:
     selected = diagnose_motion(robot(), moved(robot(), 3, sooner, seconds=10.0)).selected
     layout = selected.rows.layout
     assert not [n for n in selected.best.candidates if layout.placed[n].cause.name == "torque_delay"]
-    np.testing.assert_allclose(selected.told[layout.reversals[:, 1]] / selected.dry, -0.004, atol=2e-3)
+    np.testing.assert_allclose(selected.told[layout.reversals[:, -1]] / selected.dry, -0.004, atol=2e-3)
 
 
 @pytest.mark.long

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.refining import refined
+from armscope.motion.fitting.refining import falling_over, refined
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import select_causes
 from armscope.motion.fitting.torque_delay import Between
@@ -45,3 +47,15 @@ def test_the_speed_of_a_stribeck_friction_rests_at_the_true_one(selected: Select
 
 def test_what_rests_is_refined_no_further(selected: SelectedCauses) -> None:
     assert refined(selected, Between()) is None
+
+
+@given(now=st.floats(0.01, 5), step=st.floats(-50, 50), fastest=st.floats(0.05, 5))
+def test_a_speed_that_no_motion_shows_is_never_run_into(now: float, step: float, fastest: float) -> None:
+    better = falling_over(now, step, fastest)
+    assert better <= max(fastest / 2, now)
+    assert (better < now) == (step < 0 and now * np.exp(step) < now)
+    assert falling_over(now, 0.0, fastest) == now
+
+
+def test_a_speed_well_within_the_motion_takes_its_whole_step() -> None:
+    assert falling_over(0.1, 0.2, 2.0) == pytest.approx(0.1 * np.exp(0.2))

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.clinging import smooth_torque, taken_along
-from armscope.motion.library.dry_friction import DryFriction
+from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction
 from armscope.motion.samples.preparation import Signals
 
 RNG = np.random.default_rng(3)
@@ -30,8 +30,10 @@ def test_noise_of_positions_moves_nothing_that_clings_and_friction_stays_sharp()
     signals = Signals(
         "", 0, time, zero, dq[:, None], np.gradient(dq, time)[:, None], zero, None, None, np.arange(count)
     )
-    dry = DryFriction(np.array([5.0]), np.array([0.002]), np.zeros(1))
-    quiet = 8 * np.sin(2 * np.pi * 0.3 * time) + 5 * dry.side(signals, 0)
+    dry = DryFriction(
+        np.array([5.0]), ChangeOfSides(np.array([0.002]), np.zeros(1), np.zeros(1, dtype=np.intp), np.array([0.01]))
+    )
+    quiet = 8 * np.sin(2 * np.pi * 0.3 * time) + dry.of_joint(signals, 0)
     noisy = quiet + RNG.normal(0, 0.5, count)
     calm, loud = (Moment(signals, zero, each[:, None], None, rate, dry=dry) for each in (quiet, noisy))
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, lfilter
 
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import DryFriction
+from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction
 from armscope.motion.library.read_late import delayed
 from armscope.motion.samples.preparation import Signals
 from tests.motion.moving import robot
@@ -42,8 +42,8 @@ def test_a_low_pass_of_slow_torque_is_a_delay_and_a_part_of_how_drives_round_it_
 def test_dry_friction_is_late_by_itself() -> None:
     """When it changes sides is each joint's own number, whatever delay all torque has."""
     arm, dry = robot(), np.array([3.0, 2.0, 1.0])
-    own = DryFriction.of(arm, dry)
-    with_it = TORQUE + dry * np.column_stack([own.side(SIGNALS, joint) for joint in range(3)])
+    own = DryFriction(dry, ChangeOfSides.of(arm))
+    with_it = TORQUE + dry * own.turning.sides(SIGNALS)
     both = Moment(SIGNALS, TORQUE, with_it, None, RATE, dry=own)
     for delay in (0.0, 0.01):
         np.testing.assert_allclose(delayed(both, (0, 1, 2), delay), delayed(MOMENT, (0, 1, 2), delay), atol=1e-8)

@@ -15,7 +15,7 @@ from numpy.random import default_rng
 
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.motion.library.layout import OWN, TorqueLayout
+from armscope.motion.library.layout import DRY, LATER, OWN, TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.model import file as model_file
@@ -57,11 +57,13 @@ def every_cause() -> MotionModel:
         arm,
         preparation(200.0, 10.0, "test"),
         "torque",
-        rng.normal(size=(3, 6)),
+        rng.normal(size=(3, OWN)),
         arm.inertial * (1 + 0.01 * rng.normal(size=30)),
         0.01 * rng.normal(size=3),
         tuple(FittedCause(each, 0.01 * rng.normal(size=each.width), 0.01 * np.eye(each.width)) for each in placed),
         response=1e-5,
+        width_of_sides=np.array([0.002, 0.04, 0.002]),
+        order_of_sides=np.array([0, 1, 2]),
     )
 
 
@@ -159,7 +161,7 @@ def dry_friction(late: float) -> tuple[Array, Array]:
     layout = TorqueLayout(arm, (), False)
     coefficients = np.zeros(layout.width)
     own = coefficients[layout.own].reshape(-1, OWN)
-    own[:, 1], own[:, 5] = 4.0, 4.0 * late
+    own[:, DRY], own[:, LATER] = 4.0, 4.0 * late
     coefficients[layout.own] = own.ravel()
     stretch = next(iter(stretches(moved(arm, 4, seconds=6.0, runs=1))))
     how = preparation(stretch.rate, 20.0, "given")

@@ -7,6 +7,7 @@ import numpy as np
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
 from armscope.motion.library.laws import Law
+from armscope.motion.library.layout import OWN
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
@@ -20,7 +21,7 @@ def placed(cause: Cause, law: Law, width: int, is_curve: bool = False) -> Placed
 
 
 def test_friction_over_speed_is_all_that_follows_the_joints_own_speed() -> None:
-    arm, still = robot(), np.zeros((3, 6))
+    arm, still = robot(), np.zeros((3, OWN))
     still[:, 1:3] = np.column_stack([COULOMB, VISCOUS])
     stribeck = placed(catalogue.STRIBECK, Law("stribeck", (1,), (0.01, 0.2)), 2)
     cable = placed(catalogue.CABLE, Law("curve over joint angle", (1,), (-1.0, 1.0, 6.0)), 6, is_curve=True)

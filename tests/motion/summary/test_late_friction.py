@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.library.dry_friction import Turning
+from armscope.motion.library.dry_friction import ChangeOfSides
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.samples.preparation import Signals
 from armscope.motion.summary.late_friction import told_late
@@ -25,7 +25,7 @@ def diagnosed(late_s: float) -> MotionDiagnosis:
     def clinging(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
         time = np.arange(len(q)) / RATE
         signals = Signals("", 0, time, q, dq, ddq, q[:0], None, None, np.arange(len(q)))
-        late, now = (Turning.of(arm, by).sides(signals)[:, JOINT] for by in (late_s, 0.0))
+        late, now = (ChangeOfSides.of(arm, by).sides(signals)[:, JOINT] for by in (late_s, 0.0))
         extra = np.zeros_like(q)
         extra[:, JOINT] = COULOMB[JOINT] * (late - now)
         return extra

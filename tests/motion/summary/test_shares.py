@@ -131,7 +131,9 @@ def test_a_headline_tells_what_masses_without_a_name_add(share: float) -> None:
         f"Masses of the links that are off without a name add {percent(added)} of what friction"
         in found.verdict.headline
     )
-    assert sum(each.share for each in worth) + added < 1  # what either of them explains is not told twice
+    told = sum(each.share for each in worth) + added
+    parts, remains = contributions(found.selected)  # what either of them explains is not told twice
+    assert told == pytest.approx(1 - np.sum(remains**2) / np.sum((sum(parts) + remains) ** 2), abs=2e-4)
 
 
 @pytest.mark.long

@@ -68,9 +68,8 @@ def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
             rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])
             better = better if better > 0 else now
         else:
-            by = float(np.clip(values[1] / values[0], -LIBRARY.between_speeds, LIBRARY.between_speeds))
             fastest = float(np.abs(selected.rows.dq[:, cause.joints[0]]).max())
-            better = min(now * np.exp(by), max(fastest / 2, now))  # beyond, it is dry friction over again
+            better = falling_over(now, float(values[1] / values[0]), fastest)
             rests = abs(values[1]) < NOISE.settled * error[1] or better == now
         scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
         placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
@@ -174,3 +173,20 @@ def _as_carried(selected: SelectedCauses, number: int) -> tuple[PlacedCause, boo
     counted = [OF_A_LOAD.index(name) for name, _ in cause.parameters]
     rests = bool(np.all(np.abs(after - before)[counted] <= NOISE.settled * error))
     return (cause if rests else exact), rests
+
+
+def falling_over(now: float, step: float, fastest: float) -> float:
+    """The speed over which friction falls, a step of its logarithm on, within half of the fastest that was seen.
+
+    What falls over more is dry friction over again, less of it, and a joint never shows where it ends.
+
+    Args:
+        now: rad/s (m/s).
+        step: of the logarithm; as far as the scan's speeds lie apart at most.
+        fastest: rad/s (m/s) of the joint.
+
+    Returns:
+        rad/s (m/s).
+    """
+    by = float(np.clip(step, -LIBRARY.between_speeds, LIBRARY.between_speeds))
+    return min(now * float(np.exp(by)), max(fastest / 2, now))

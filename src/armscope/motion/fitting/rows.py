@@ -12,7 +12,7 @@ from armscope.core.types import Array, Indices, Progress, unheard
 from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.fitting.pauses import Pauses, joined, pauses_of, stands
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import DryFriction, Turning, own_columns
+from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction, own_columns
 from armscope.motion.library.laws import FOLLOWS_MODEL, Law
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.samples.preparation import Preparation, Signals, parts
@@ -204,7 +204,7 @@ class _Piece:
         self.turning = np.zeros(layout.arm.n_motors) if model.turning is None else model.turning
         arm, signals = layout.arm, samples.signals
         self.arm, self.signals = arm, signals
-        turning = Turning.of(arm, self.turning, layout.width_of_sides, layout.order_of_sides)
+        turning = ChangeOfSides.of(arm, self.turning, layout.width_of_sides, layout.order_of_sides)
         self.background = own_columns(signals, turning)
         inertial = model.inertial_in(signals.run)
         rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial

@@ -57,7 +57,7 @@ class SelectedCauses:
     def told(self) -> Array:
         """(p,) coefficients as a model holds them: friction's change of sides counted from the speed's."""
         found = self.coefficients.copy()
-        found[self.rows.layout.reversals[:, 1]] += self.rows.turning * self.dry
+        found[self.rows.layout.reversals[:, -1]] += self.rows.turning * self.dry
         return found
 
     @functools.cached_property

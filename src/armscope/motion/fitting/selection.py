@@ -78,7 +78,7 @@ def turning_of(selected: SelectedCauses) -> Array:
     """
     best, scale = selected.best, selected.problem.scale
     turning, dry = selected.rows.turning.copy(), selected.dry
-    for j, column in enumerate(selected.rows.layout.reversals[:, 1]):
+    for j, column in enumerate(selected.rows.layout.reversals[:, -1]):
         if column not in best.columns or dry[j] <= 0:
             continue
         error = float(np.sqrt(best.variances(np.array([column]))[0])) / scale[column]

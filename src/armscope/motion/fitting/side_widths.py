@@ -25,8 +25,8 @@ from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.weights import fitted_together
 from armscope.motion.library.clinging import taken_along
-from armscope.motion.library.dry_friction import LATE_BY_ORDER, Turning, is_shown, motion_before, passed
-from armscope.motion.library.layout import DRY, LATER, OWN, ROUNDER, TorqueLayout
+from armscope.motion.library.dry_friction import LATE_BY_ORDER, ChangeOfSides, is_shown, motion_before, passed
+from armscope.motion.library.layout import BLUNTER, DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import coulomb_width, sharp_width, side
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals
@@ -36,11 +36,11 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 OfSpeed = Callable[[Signals], Array]
 """(N, c) columns at samples of one joint."""
-SIDES = [DRY, ROUNDER, LATER]
+SIDES = [DRY, BLUNTER, ROUNDER, LATER]
 """Numbers of dry friction, and of how and when it changes sides, among a joint's own columns."""
 
 
-def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> Turning:
+def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> ChangeOfSides:
     """Within which speed, how much later than it, and behind which low-pass each joint's dry friction changes sides.
 
     Args:
@@ -63,7 +63,7 @@ def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Prepar
         joint.late, joint.order = (late, order) if order else (own, 0)
     widths = [joint.width(modelled[:, j]) for j, joint in enumerate(joints)]
     lates, orders = ([getattr(joint, name) for joint in joints] for name in ("late", "order"))
-    return Turning(np.array(widths), np.array(lates), np.array(orders, dtype=np.intp))
+    return ChangeOfSides.of(arm, np.array(lates), np.array(widths), np.array(orders, dtype=np.intp))
 
 
 def _one_filter(shifted: Sequence[tuple[_Joint, float]]) -> tuple[float, int]:

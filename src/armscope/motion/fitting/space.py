@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -54,7 +55,7 @@ def build_space(layout: TorqueLayout, torque: Array, rate: float, barred: frozen
         Columns, priors, and what excludes what.
     """
     shares = PRIOR.inertial_shares
-    shape = torque[:, None] * [PRIOR.turning_s**2, PRIOR.turning_s]
+    shape = torque[:, None] * [PRIOR.reversal, PRIOR.turning_s**2, PRIOR.turning_s]
     reversals = ToleranceFamily("reversals", layout.reversals.ravel(), shape.ravel(), PRIOR.reversal_sizes)
     families: list[BackgroundFamily] = [
         ToleranceFamily("masses", layout.inertial, np.ones(len(layout.inertial)), shares),
@@ -120,10 +121,12 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
     for number, cause in enumerate(placed):
         beside.setdefault(cause.location, []).append(number)
     changing, candidates = [n for n, cause in enumerate(placed) if cause.cause in CHANGES], []
+    opposite = list(_opposite_inertias(placed))
     for number, (cause, columns) in enumerate(zip(placed, layout.columns, strict=True)):
         excludes = frozenset(n for n in beside[cause.location] if n != number and _clash(cause, placed[n]))
         excludes |= frozenset(n for n in changing if _at_the_same_moments(cause, placed[n]))
         excludes |= frozenset(n for n, other in enumerate(placed) if _of_one_clock(cause, other))
+        excludes |= frozenset(n for pair in opposite if number in pair for n in pair if n != number)
         special = frozenset(n for n in excludes - barred if _contains(cause, placed[n]))
         candidates.append(
             Candidate(
@@ -149,6 +152,19 @@ def _candidates(layout: TorqueLayout, barred: frozenset[int]) -> tuple[Candidate
             )
         )
     return tuple(candidates)
+
+
+def _opposite_inertias(placed: Sequence[PlacedCause]) -> Iterator[tuple[int, int]]:
+    """A link that turns with two joints of parallel axes, and what turns with their difference.
+
+    Each takes back what the other has both joints say of one another; what they have of each joint alone is rotors.
+    """
+    coupled = {n: cause for n, cause in enumerate(placed) if cause.cause is catalogue.COUPLED_INERTIA}
+    both = Counter(cause.joints for cause in coupled.values())  # two: neither is a link
+    for number, cause in coupled.items():
+        links = [n for n, other in enumerate(placed) if other.location == f"link {cause.joints[1] + 1}"]
+        if both[cause.joints] == 1:
+            yield from ((number, n) for n in links if placed[n].cause is catalogue.LINK_INERTIA)
 
 
 def _contains(one: PlacedCause, other: PlacedCause) -> bool:

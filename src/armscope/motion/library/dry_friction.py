@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from armscope.core.types import Array, Indices
-from armscope.motion.library.sides import sharp_width, side
+from armscope.motion.library.sides import blunt_width, sharp_width, side
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Signals, without_lag
 from armscope.robot.dynamics import MovingArm
@@ -38,23 +38,25 @@ LATE_BY_ORDER = {1: 1.0, 2: 2.0**0.5}
 
 
 @dataclass(frozen=True, eq=False)
-class Turning:
+class ChangeOfSides:
     """How dry friction of m joints changes sides.
 
     Attributes:
         width: (m,) rad/s (m/s) within which it does.
         late: (m,) s by which it does later than the speed.
         order: (m,) of a low-pass that makes it so; 0: it is shifted as it is.
+        blunt: (m,) rad/s (m/s) up to which width the shape of the change is free.
     """
 
     width: Array
     late: Array
     order: Indices
+    blunt: Array
 
     @classmethod
     def of(
         cls, arm: MovingArm, late: Array | float = 0.0, width: Array | None = None, order: Indices | None = None
-    ) -> Turning:
+    ) -> ChangeOfSides:
         """As sharp as fits take it to be, in time and unfiltered, where nothing else is given.
 
         Args:
@@ -66,7 +68,8 @@ class Turning:
         """
         late = np.broadcast_to(np.asarray(late, dtype=float), (arm.n_motors,))
         order = np.zeros(arm.n_motors, dtype=np.intp) if order is None else order
-        return cls(sharp_width(arm) if width is None else width, late, order)
+        width = sharp_width(arm) if width is None else width
+        return cls(width, late, order, blunt_width(arm, width))
 
     def wide(self, arm: MovingArm) -> Array | None:
         """(m,) widths; None where all are as sharp as fits take them to be."""
@@ -83,12 +86,31 @@ class Turning:
 
 
 def is_shown(order: int, late: float, period: float) -> bool:
-    """Whether samples that far apart, s, show a low-pass; what is later or sooner otherwise is shifted."""
+    """Whether samples show a low-pass; what is later or sooner otherwise is shifted.
+
+    Args:
+        order: of it, 0 for none.
+        late: s by which it makes what is slow late.
+        period: s, between samples.
+
+    Returns:
+        Whether its cut-off lies below where samples end.
+    """
     return order > 0 and LATE_BY_ORDER[order] * period < np.pi * FILTER.nyquist * late
 
 
 def passed(values: Array, order: int, late: float, rate: float) -> Array:
-    """Samples (N,) behind a causal low-pass of an order that makes what is slow late by some seconds."""
+    """Samples behind a causal low-pass (Butterworth), at rest with the first of them.
+
+    Args:
+        values: (N,).
+        order: 1 or 2.
+        late: s by which it makes what is slow late.
+        rate: samples per second.
+
+    Returns:
+        (N,).
+    """
     from scipy.signal import butter, lfilter, lfilter_zi  # take long to import: most commands need none
 
     b, a = butter(order, LATE_BY_ORDER[order] / late, fs=2 * np.pi * rate)
@@ -100,7 +122,7 @@ class DryFriction:
     """Of m joints: its torque (m,), N m (N), and how it changes sides."""
 
     torque: Array
-    turning: Turning
+    turning: ChangeOfSides
 
     def of_joint(self, signals: Signals, joint: int) -> Array:
         """(N,) N m (N) of a joint."""
@@ -159,12 +181,13 @@ def motion_before(signals: Signals, ago: Array) -> Signals:
     return replace(signals, dq=dq, ddq=ddq)
 
 
-def own_columns(signals: Signals, turning: Turning) -> Array:
-    """(N, m, 6) what every joint has, per unit of each: `layout.OWN_NAMES`."""
+def own_columns(signals: Signals, turning: ChangeOfSides) -> Array:
+    """(N, m, 7) what every joint has, per unit of each: `layout.OWN_NAMES`."""
     turned = turning.sides(signals)
+    blunter = replace(turning, width=turning.blunt).sides(signals) - turned
     slope = np.gradient(turned, signals.period, axis=0)
     rounder = np.gradient(slope, signals.period, axis=0)
-    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, rounder, -slope], axis=2)
+    return np.stack([np.ones_like(signals.q), turned, signals.dq, signals.ddq, blunter, rounder, -slope], axis=2)
 
 
 def rounded_off(sides: Array, over: Array, period: float) -> Array:

@@ -16,17 +16,18 @@ from armscope.motion.library.laws import Law, is_of_a_gain
 from armscope.robot.dynamics import MovingArm
 
 NAMED_OF_OWN = ("offset", "coulomb", "viscous", "inertia")
-OWN_NAMES = (*NAMED_OF_OWN, "rounder", "later")
+OWN_NAMES = (*NAMED_OF_OWN, "blunter", "rounder", "later")
 """Columns that every joint has: offset, dry and viscous friction, rotor inertia, how friction changes sides, and when.
 
-The last two are no causes: friction turns over some milliseconds later than the speed, and over some milliseconds, in
-a way that presliding, filters and sampling make. They are free within limits, so that no cause is named for them, and
-so that no other number of the joint takes them up: a delay of all torque in their place takes viscous friction, times
-its seconds, from the rotor's inertia. A step that something rounds off is, beyond its delay, half the variance of that
-over time, times the second derivative; so whatever rounds it off, these two say it to the second order.
+The last three are no causes: friction turns over a little more speed, over some milliseconds, and some milliseconds
+later than the speed, in a way that grease, presliding, filters and sampling make. They are free within limits, so that
+no cause is named for them, and so that no other number of the joint takes them up: a delay of all torque in their place
+takes viscous friction, times its seconds, from the rotor's inertia. A step that something rounds off is, beyond its
+delay, half the variance of that over time, times the second derivative; so whatever rounds it off, the last two say it
+to the second order. It takes longer where a joint turns more slowly: that is the first.
 """
 OWN, CAUSES_OF_OWN = len(OWN_NAMES), len(NAMED_OF_OWN)
-DRY, ROUNDER, LATER = (OWN_NAMES.index(name) for name in ("coulomb", "rounder", "later"))
+DRY, VISCOUS, BLUNTER, ROUNDER, LATER = map(OWN_NAMES.index, ("coulomb", "viscous", "blunter", "rounder", "later"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,7 @@ class TorqueLayout:
 
     @property
     def own(self) -> Indices:
-        """(6 m,) of `OWN`, joint by joint."""
+        """(7 m,) of `OWN`, joint by joint."""
         return np.arange(OWN * self.arm.n_motors)
 
     @property
@@ -71,7 +72,7 @@ class TorqueLayout:
 
     @property
     def reversals(self) -> Indices:
-        """(m, 2) the last two of `OWN` of each joint."""
+        """(m, 3) of each joint, how its friction changes sides: the last of `OWN`."""
         return np.arange(self.arm.n_motors)[:, None] * OWN + np.arange(CAUSES_OF_OWN, OWN)
 
     @property

@@ -35,6 +35,11 @@ def sharp_width(arm: MovingArm) -> Array:
     return coulomb_width(arm) / FILTER.sharper
 
 
+def blunt_width(arm: MovingArm, width: Array) -> Array:
+    """(m,) the largest beside one of (m,) that was chosen, up to which its shape is free."""
+    return np.maximum(coulomb_width(arm), FILTER.blunter * width)
+
+
 def coulomb_width(arm: MovingArm) -> Array:
     """(m,) speed within which friction changes sides as a rule, at most, rad/s or m/s."""
     return np.where(arm.sliding, FILTER.coulomb_width_m_s, FILTER.coulomb_width_rad_s)

@@ -32,9 +32,9 @@ class PreparationFile(Strict):
 class JointFile(Strict):
     """Friction and rotor of one motor, SI: torque = offset + coulomb side(dq) + viscous dq + inertia ddq.
 
-    ``rounder``, ``later``: over how long friction changes sides (N m s^2), and when (N m s); ``gain``: share by which
-    recorded torque is too large; ``width``: speed within which friction changes sides, rad/s (m/s), where the motion
-    says so; ``order``: of the low-pass by which it does so late, 0 where it is shifted.
+    ``blunter``, ``rounder``, ``later``: over which speed (N m) and time (N m s^2) friction changes sides, and when (N m
+    s); ``gain``: share by which recorded torque is too large; ``width``: speed within which friction changes sides,
+    rad/s (m/s), where the motion says so; ``order``: of the low-pass by which it does so late, 0 where it is shifted.
     """
 
     joint: Word
@@ -42,6 +42,7 @@ class JointFile(Strict):
     coulomb: Number
     viscous: Number
     inertia: Number
+    blunter: Number = 0.0
     rounder: Number
     later: Number
     gain: Number

@@ -14,7 +14,7 @@ from armscope.motion.fitting.model_estimate import Estimate
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.changes_catalogue import LOAD_CHANGE
-from armscope.motion.library.dry_friction import DryFriction, Turning, own_columns, rounded_off
+from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction, own_columns, rounded_off
 from armscope.motion.library.laws import follows_motion, is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import sharp_width
@@ -98,7 +98,7 @@ class MotionModel:
             carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
         followed = self.followed()
         joints, late, over = self._turning()
-        turning = Turning.of(self.arm, late, self._width(), self.order_of_sides)
+        turning = ChangeOfSides.of(self.arm, late, self._width(), self.order_of_sides)
         own = own_columns(signals, turning)
         own[:, :, ROUNDER] = rounded_off(own[:, :, DRY], over, signals.period) - own[:, :, DRY]
         bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
@@ -134,7 +134,7 @@ class MotionModel:
         return found
 
     def _turning(self) -> tuple[Array, Array, Array]:
-        """(m, 6) the joints' numbers; (m,) s by how much later than speed dry friction changes sides; over how long.
+        """(m, 7) the joints' numbers; (m,) s by how much later than speed dry friction changes sides; over how long.
 
         Fits hold these as derivatives of friction over time, which is the same only as long as the low-pass rounds more
         off: not low-passed, they are spikes at each reversal. Here friction is shifted and rounded off itself, by no

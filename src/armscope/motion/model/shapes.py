@@ -6,8 +6,9 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import Turning, own_columns
+from armscope.motion.library.dry_friction import ChangeOfSides, own_columns
 from armscope.motion.library.laws import Law
+from armscope.motion.library.layout import BLUNTER, DRY, VISCOUS
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.samples.preparation import Signals
@@ -28,8 +29,9 @@ def friction_over_speed(model: MotionModel, joint: int, speed: Array) -> Array:
         (N,) N m or N.
     """
     moment = everything_is(speed, model.arm.n_motors)
-    own = own_columns(moment.signals, Turning.of(model.arm, width=model.width_of_sides))[:, joint]
-    total = own[:, [1, 2, 4]] @ model.joints[joint, [1, 2, 4]]
+    own = own_columns(moment.signals, ChangeOfSides.of(model.arm, width=model.width_of_sides))[:, joint]
+    of_speed = [DRY, VISCOUS, BLUNTER]
+    total = own[:, of_speed] @ model.joints[joint, of_speed]
     for cause in model.causes:
         law = cause.placed.columns
         if isinstance(law, Law) and law.kind in OF_SPEED and law.joints == (joint,):

@@ -111,6 +111,9 @@ class FilterRules(Constants):
         "judgement: grease and preloaded slides; wider is a curve of friction over speed",
         unit="widths",
     )
+    blunter: float = constant(
+        2.0, "that friction may change sides less sharply than within the chosen width", "derived: a step of `wider`"
+    )
     sharper_at_rest: float = constant(
         5.0,
         "more sharply still, where torque is predicted: fits leave joints out that stand, predictions begin with them",
@@ -127,11 +130,6 @@ class FilterRules(Constants):
         "change of speed within a sample below which friction's mean over it is that in its middle",
         "derived: they differ by a millionth",
         unit="widths",
-    )
-    turning: float = constant(
-        0.01,
-        "of how fast friction changes sides at its fastest: where it is less, friction pulls one way",
-        "judgement: the low-pass's ringing is below that within two of its periods",
     )
     rounding: float = constant(
         1e-9, "share of a slope's square that is its own, from which it tells anything", "derived: far above rounding"

@@ -18,11 +18,10 @@ class PlausibleRules(Constants):
         "softer, so no name is refused by it",
         unit="Hz",
     )
-    samples_near_rest: float = constant(
-        1.0,
-        "by whose change of speed a joint that turns back must take to reach the speed of a friction near rest",
-        "derived: from that speed one way to it the other way are then two",
-        unit="samples",
+    samples_near_rest: int = constant(
+        2,
+        "that most reversals must have below the speed of a friction near rest",
+        "derived: what one sample has of it, how friction changes sides within a sample has as well",
     )
     poses: int = constant(200, "in which a link's inertia is looked at", "judgement: it changes slowly", unit="rows")
 

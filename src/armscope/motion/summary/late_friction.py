@@ -9,8 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.numerals import rounded
+from armscope.inference.evidence import Hypothesis, at_noise
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.fitting.space import OF_REVERSALS
 from armscope.motion.library import catalogue
 from armscope.motion.summary.intervals import Sureness, level_of_gains
 from armscope.verdict.effects import INTERVAL
@@ -27,13 +29,13 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
     Returns:
         A notice, or none. Of a joint that stands between its moves none that says "sooner".
     """
-    layout, best = selected.rows.layout, selected.best
-    delays = [layout.placed[n] for n in best.candidates if layout.placed[n].cause is catalogue.DELAY]
+    layout, best = selected.rows.layout, _with_turns_free(selected)
+    delays = [layout.placed[n] for n in selected.best.candidates if layout.placed[n].cause is catalogue.DELAY]
     named = {joint for delay in delays for joint in delay.joints}
     told, level = [], level_of_gains(layout)
-    for j, column in enumerate(layout.reversals[:, 1]):
+    for j, column in enumerate(layout.reversals[:, -1]):
         dry = selected.dry[j]
-        if j in named or dry <= 0 or column not in best.columns:
+        if j in named or dry <= 0:
             continue
         slope = selected.told[column]
         error = float(np.sqrt(best.variances(np.array([column]))[0])) / selected.problem.scale[column]
@@ -50,6 +52,16 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         "after the same time."
     )
     return [Notice("late friction", text)]
+
+
+def _with_turns_free(selected: SelectedCauses) -> Hypothesis:
+    """The best hypothesis; where columns formed at the moment that friction turns need nothing more, with them free."""
+    best, families = selected.best, selected.space.families
+    free = tuple(
+        size or (family.sizes - 1 if family.name in OF_REVERSALS else 0)
+        for family, size in zip(families, best.background, strict=True)
+    )
+    return best if free == best.background else at_noise(selected.problem, best.chosen, free, best.noise)
 
 
 def _stands(selected: SelectedCauses, joint: int) -> bool:

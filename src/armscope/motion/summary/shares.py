@@ -21,12 +21,10 @@ class Worth:
     Attributes:
         share: how much of it goes when the cause is cured as it was found, averaged over the orders in which all can
             be cured (Shapley 1953); below zero it hides part of what others do.
-        size: its own torque, squared.
         minor: whether it is apart from the story.
     """
 
     share: float
-    size: float
     minor: bool = False
 
 
@@ -58,7 +56,7 @@ def worth_of(selected: SelectedCauses) -> tuple[list[Worth], float]:
     pull = b - G @ fitted
     whole = float(yy - fitted @ (b + pull) + numbers @ (G @ numbers + 2 * pull))
     if whole <= 0 or not len(beyond):
-        return [Worth(0.0, 0.0, True) for _ in members], 0.0
+        return [Worth(0.0, True) for _ in members], 0.0
     parts = np.split(np.arange(len(named) + len(masses)), np.cumsum([len(columns) for columns in members]))
     extra = np.split(len(named) + len(masses) + np.arange(len(turned)), np.cumsum([len(by) for _, by in late]))[:-1]
     parts = [np.concatenate([own, more]) for own, more in zip(parts, [*extra, []], strict=True)]
@@ -78,8 +76,8 @@ def _told(
         there[parts[n]] = 0.0
         before, left = left, 1 + float(there @ (G @ there + 2 * pull) - numbers @ (G @ numbers + 2 * pull)) / whole
         seen[n] = max(shares[n], sizes[n]) >= TELLING.minor_share or before - left >= TELLING.of_the_rest * before
-    told = zip(shares[:-1], sizes[:-1], seen[:-1], strict=True)
-    return [Worth(share, size, not is_seen) for share, size, is_seen in told], shares[-1]
+    told = zip(shares[:-1], seen[:-1], strict=True)
+    return [Worth(share, not is_seen) for share, is_seen in told], shares[-1]
 
 
 def _friction_of(selected: SelectedCauses, number: int) -> tuple[Indices, Array]:
@@ -88,7 +86,7 @@ def _friction_of(selected: SelectedCauses, number: int) -> tuple[Indices, Array]
     if placed.cause is not DELAY:
         return np.empty(0, dtype=np.intp), np.empty(0)
     joints = list(placed.joints)
-    columns = layout.reversals[joints, 1]
+    columns = layout.reversals[joints, -1]
     by = selected.dry[joints] * selected.coefficients[layout.columns[number][0]]
     return columns, by * selected.problem.scale[columns]
 

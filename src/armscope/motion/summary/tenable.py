@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -140,10 +140,24 @@ def _between_samples(selected: SelectedCauses, rate: float) -> Iterator[int]:
         if placed.cause is not catalogue.STRIBECK:
             continue
         (_, _, speed), j = placed.scanned[0], placed.joints[0]
-        slow = [each.signals.ddq[np.abs(each.signals.dq[:, j]) < speed, j] for each in selected.rows.samples]
-        passed = np.abs(np.concatenate(slow)) / rate
-        if len(passed) and speed < PLAUSIBLE.samples_near_rest * np.median(passed):
+        between = np.concatenate([samples_near_rest(each.signals.dq[:, j], speed) for each in selected.rows.samples])
+        if len(between) and np.median(between) < PLAUSIBLE.samples_near_rest:
             yield number
+
+
+def samples_near_rest(speeds: Array, slow: float) -> Indices:
+    """How many samples each reversal has between a speed one way and that speed the other way.
+
+    Args:
+        speeds: (N,) rad/s (m/s) of a joint over time.
+        slow: rad/s (m/s).
+
+    Returns:
+        (k,) of the k reversals between faster motion; a joint that stays slow has not turned back yet.
+    """
+    fast = np.flatnonzero(np.abs(speeds) >= slow)
+    turned = np.diff(np.sign(speeds[fast])) != 0
+    return np.asarray(np.diff(fast)[turned] - 1)
 
 
 def _pulls_and_pushes(selected: SelectedCauses, number: int) -> bool:
