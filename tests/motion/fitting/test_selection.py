@@ -11,12 +11,15 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.inference.problem import SelectedEffect
+from armscope.motion.fitting.model_estimate import stated_model
+from armscope.motion.fitting.rows import build_rows
 from armscope.motion.fitting.selection import _at_rest, named_first, starting_weights
 from armscope.motion.fitting.space import build_space
-from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.layout import OWN, OWN_NAMES, TorqueLayout
 from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
 from armscope.verdict.effects import UNKNOWN
 from tests.motion.cured import JOINT, LONG, STATED, Motion, diagnosed
@@ -97,6 +100,44 @@ def test_an_offset_counts_beside_the_laws_of_a_speed_curve() -> None:
     two = {by_name["asymmetric_friction"], by_name["viscous_curve"]}
     assert curve.excess(frozenset(two | {by_name["torque_offset"]})) == 0
     assert curve.excess(frozenset(two | {by_name["stribeck_friction"]})) == 1
+
+
+def test_a_link_and_what_turns_with_the_difference_of_its_joints_take_each_other_back() -> None:
+    """About parallel axes the two, equally large, ask of the motors what rotors ask of them alone."""
+    arm = robot()
+    motion = list(stretches(moved(arm, 1)))
+    placed = place_causes(seen_in(arm, motion, 0.02))
+    layout = TorqueLayout(arm, tuple(placed), False)
+    coupled = [n for n, each in enumerate(placed) if each.cause.name == "coupled_inertia" and each.joints == (1, 2)]
+    links = [n for n, each in enumerate(placed) if each.cause.name == "link_inertia" and each.location == "link 3"]
+    candidates = build_space(layout, np.ones(3), 200.0).candidates
+    (difference,) = coupled
+    assert set(links) <= candidates[difference].excludes
+    assert all(difference in candidates[link].excludes for link in links)
+
+    rows = build_rows(layout, motion, preparation(200.0, 10.0, "given"), stated_model(arm))
+    one = next(n for n in links if layout.columns[n].size == 1)
+    numbers = np.zeros(layout.width)
+    numbers[[*layout.columns[one], *layout.columns[difference]]] = 1.0
+    torque = rows.modelled(numbers)[:, 1:]
+    numbers[layout.columns[difference]] = 0.0
+    alone = rows.modelled(numbers)[:, 1:]
+    for j in (1, 2):
+        rotor = rows.columns[j][:, [np.searchsorted(rows.at[j], OWN * j + OWN_NAMES.index("inertia"))]]
+        left, of_one = (
+            each - rotor @ np.linalg.lstsq(rotor, each, rcond=None)[0] for each in (torque.T[j - 1], alone.T[j - 1])
+        )
+        assert np.linalg.norm(left) < 0.05 * np.linalg.norm(of_one)
+
+
+def test_inertias_between_axes_that_are_not_parallel_stand_beside_links() -> None:
+    arm = robot()
+    placed = place_causes(seen_in(arm, list(stretches(moved(arm, 1))), 0.02))
+    candidates = build_space(TorqueLayout(arm, tuple(placed), False), np.ones(3), 200.0).candidates
+    links = {n for n, each in enumerate(placed) if each.cause.name == "link_inertia"}
+    across = [n for n, each in enumerate(placed) if each.cause.name == "coupled_inertia" and each.joints == (0, 1)]
+    assert len(across) == 2
+    assert not any(links & candidates[n].excludes for n in across)
 
 
 def test_friction_that_is_not_as_stated_counts_beside_the_laws_of_a_speed_curve() -> None:

@@ -8,6 +8,7 @@ from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.verdict import FoundCause
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import robot
+from tests.seeds import seeds
 from tests.motion.two_inertias import RIGID, play, recorded, said_of, spring
 
 
@@ -42,6 +43,14 @@ def test_a_spring_between_two_inertias_is_found_with_its_stiffness(joint: int, s
     side = found.verdict.links[0]
     assert side.left < 0.05 * side.rms  # on motion that took no part
     assert "joint_compliance" not in [each.effect for each in found.verdict.effects]  # told once, where it was read
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", seeds(4, 5))
+def test_friction_that_sticks_before_a_spring_gets_no_name(seed: int) -> None:
+    """A controller's motors rest some samples where they turn back; the link swings on behind them."""
+    found = said_of(spring(3000.0), 3, seed)
+    assert not [each for each in found.verdict.effects if not each.minor]
 
 
 @pytest.fixture(scope="module")

@@ -17,13 +17,25 @@ from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.samples.timing import stretches
 from armscope.motion.summary import tenable as judging
-from armscope.motion.summary.tenable import held_out_gains, tenable
+from armscope.motion.summary.tenable import held_out_gains, samples_near_rest, tenable
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
 STATED = [
     {"coulomb_nm": float(c), "viscous_nm_s_rad": float(v), "rotor_inertia_kg_m2": float(r)}
     for c, v, r in zip(COULOMB, VISCOUS, ROTOR, strict=True)
 ]
+
+
+def test_samples_near_rest_are_those_of_reversals_alone() -> None:
+    speeds = np.array([0.3, 0.1, 0.02, -0.01, -0.2, 0.05, 0.02, -0.3, 0.4, 0.05, 0.3, 0.01])
+    assert samples_near_rest(speeds, 0.06).tolist() == [2, 0]  # back at once, then to and fro without turning back
+    assert samples_near_rest(speeds, 0.15).tolist() == [3, 0]
+
+
+def test_a_steady_reversal_has_as_many_samples_near_rest_as_it_takes() -> None:
+    rate, acceleration, slow = 200.0, 1.5, 0.09
+    (found,) = samples_near_rest(acceleration * (np.arange(-300, 300) + 0.5) / rate, slow)
+    assert found == pytest.approx(2 * slow / acceleration * rate, abs=1)
 
 
 def driving(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
