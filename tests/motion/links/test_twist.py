@@ -8,8 +8,8 @@ from armscope.motion.pipeline import MotionDiagnosis, diagnose_motion
 from armscope.motion.verdict import FoundCause
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import robot
-from tests.seeds import seeds
 from tests.motion.two_inertias import RIGID, play, recorded, said_of, spring
+from tests.seeds import seeds
 
 
 def diagnosed(table: pd.DataFrame) -> MotionDiagnosis:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -24,69 +26,96 @@ from armscope.motion.library.linkage import BETWEEN_LINKS
 from armscope.motion.library.masses import as_a_body, as_it_leans, at_its_place
 from armscope.motion.library.powers import closer, opposite
 
-SCANNED = (catalogue.STRIBECK, catalogue.DELAY, catalogue.COMPLIANCE)
-"""Causes whose law holds a number that is fitted by its slope."""
+Refined = tuple[PlacedCause, bool]
+"""A cause as the fit says that its columns should be, and whether they are so already, within errors."""
+Moved = Iterator[tuple[int, PlacedCause, bool]]
+"""The same with its number among those placed."""
 
 
 def refined(selected: SelectedCauses, between: Between) -> TorqueLayout | None:
-    """The layout with scanned speeds and delays where the fit puts them; None where they rest."""
-    layout, moved = selected.rows.layout, False
-    placed = list(layout.placed)
+    """The layout with scanned numbers, centres and loads where the fit puts them; None where they rest."""
+    placed, rest = list(selected.rows.layout.placed), True
+    for number, cause, rests in itertools.chain(_of_chosen(selected, between), _of_others(selected)):
+        placed[number], rest = cause, rest and rests
+    return None if rest else replace(selected.rows.layout, placed=tuple(placed))
+
+
+def _of_chosen(selected: SelectedCauses, between: Between) -> Moved:
     for number in selected.best.candidates:
-        cause, columns = placed[number], layout.columns[number]
-        if cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
-            exact, rests = _exact(selected, number)
-            placed[number], moved = exact, moved or not rests
-            continue
+        cause = selected.rows.layout.placed[number]
         if cause.cause is catalogue.VISCOUS_CURVE:
-            for other, closer_power in _closer_powers(selected, number).items():
-                placed[other], moved = closer_power, True
-            continue
-        if cause.variant == BETWEEN_LINKS:
-            continue
-        if cause.cause is LOAD_CHANGE:
-            placed[number], rests = _as_carried(selected, number)
-            moved = moved or not rests
-            continue
-        if cause.cause is catalogue.GRAVITY:
-            placed[number], rests = _leaning(selected, number)
-            moved = moved or not rests
-            continue
-        if cause.cause not in SCANNED or not isinstance(cause.columns, Law):
-            continue
-        values = selected.coefficients[columns]
-        error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-        *others, now = cause.columns.numbers
-        if cause.cause is catalogue.DELAY:
-            more, unsure = lag_step(selected, number)
-            better = float(values[0]) + more
-            settled = NOISE.settled * max(float(error[0]), unsure)
-            rests = abs(better - now) < settled
-            better = between.next(frozenset(selected.best.candidates), number, now, better)
+            yield from ((other, power, False) for other, power in _closer_powers(selected, number).items())
+        elif cause.cause is catalogue.LINK_CENTRE or is_anywhere(cause):
+            yield (number, *_exact(selected, number))
+        elif cause.cause is LOAD_CHANGE:
+            yield (number, *_as_carried(selected, number))
+        elif cause.cause is catalogue.GRAVITY:
+            yield (number, *_leaning(selected, number))
+        elif cause.cause is catalogue.DELAY:
+            yield (number, *_later(selected, number, between))
+        elif cause.cause is catalogue.STRIBECK:
+            yield (number, *_falling(selected, number))
         elif cause.cause is catalogue.COMPLIANCE:
-            better = float(values[0])
-            rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])
-            better = better if better > 0 else now
-        else:
-            fastest = float(np.abs(selected.rows.dq[:, cause.joints[0]]).max())
-            better = falling_over(now, float(values[1] / values[0]), fastest)
-            rests = abs(values[1]) < NOISE.settled * error[1] or better == now
-        scanned = tuple((name, unit, better) for name, unit, _ in cause.scanned)
-        placed[number] = replace(cause, columns=replace(cause.columns, numbers=(*others, better)), scanned=scanned)
-        moved = moved or not rests
-    for number, rival, elsewhere in rivals_at_hand(selected):
-        placed[number], moved = rival, moved or elsewhere
-    for number, counted in recounted(selected).items():
-        placed[number], moved = counted, True
-    for number in range(len(placed)):
-        if (
-            is_anywhere(placed[number]) and number not in selected.best.candidates
-        ):  # not chosen, it competes with what is chosen in its place
-            placed[number] = as_a_body(placed[number], layout.arm, *carried_in(selected, placed[number]))
-        if placed[number].variant == BETWEEN_LINKS:
-            placed[number], rests = remounted(selected, number)
-            moved = moved or not rests
-    return replace(layout, placed=tuple(placed)) if moved else None
+            yield (number, *_softer(selected, number))
+
+
+def _of_others(selected: SelectedCauses) -> Moved:
+    """What competes with the chosen ones follows them."""
+    yield from ((number, rival, not elsewhere) for number, rival, elsewhere in rivals_at_hand(selected))
+    yield from ((number, counted, False) for number, counted in recounted(selected).items())
+    for number, cause in enumerate(selected.rows.layout.placed):
+        if is_anywhere(cause) and number not in selected.best.candidates:
+            yield number, as_a_body(cause, selected.rows.layout.arm, *carried_in(selected, cause)), True
+        elif cause.variant == BETWEEN_LINKS:
+            yield (number, *remounted(selected, number))
+
+
+def _later(selected: SelectedCauses, number: int, between: Between) -> Refined:
+    """A delay whose chord ends where its slope leads."""
+    value, error = _fitted(selected, number)
+    more, unsure = lag_step(selected, number)
+    now, better = _formed_at(selected, number), float(value[0]) + more
+    rests = abs(better - now) < NOISE.settled * max(float(error[0]), unsure)
+    return _at(selected, number, between.next(selected.best.candidates, number, now, better)), rests
+
+
+def _softer(selected: SelectedCauses, number: int) -> Refined:
+    """A drive's chord at the compliance that it has."""
+    value, error = _fitted(selected, number)
+    now, better = _formed_at(selected, number), float(value[0])
+    rests = better <= 0 or abs(better - now) < NOISE.settled * float(error[0])
+    return _at(selected, number, better if better > 0 else now), rests
+
+
+def _falling(selected: SelectedCauses, number: int) -> Refined:
+    """Friction near rest that falls over the speed to which its slope leads."""
+    value, error = _fitted(selected, number)
+    now, (joint,) = _formed_at(selected, number), selected.rows.layout.placed[number].joints
+    fastest = float(np.abs(selected.rows.dq[:, joint]).max())
+    better = falling_over(now, float(value[1] / value[0]), fastest)
+    return _at(selected, number, better), bool(abs(value[1]) < NOISE.settled * error[1] or better == now)
+
+
+def _fitted(selected: SelectedCauses, number: int) -> tuple[Array, Array]:
+    """(c,) a cause's numbers and their standard errors, SI."""
+    columns = selected.rows.layout.columns[number]
+    return selected.coefficients[columns], np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
+
+
+def _formed_at(selected: SelectedCauses, number: int) -> float:
+    """The number at which its law was formed."""
+    law = selected.rows.layout.placed[number].columns
+    assert isinstance(law, Law)
+    return law.numbers[-1]
+
+
+def _at(selected: SelectedCauses, number: int, value: float) -> PlacedCause:
+    """The cause with its law formed at another number."""
+    cause = selected.rows.layout.placed[number]
+    law = cause.columns
+    assert isinstance(law, Law)
+    scanned = tuple((name, unit, value) for name, unit, _ in cause.scanned)
+    return replace(cause, columns=replace(law, numbers=(*law.numbers[:-1], value)), scanned=scanned)
 
 
 def _closer_powers(selected: SelectedCauses, number: int) -> dict[int, PlacedCause]:
@@ -133,42 +162,39 @@ def carried_in(selected: SelectedCauses, load: PlacedCause) -> tuple[Array, floa
     return added, float(np.mean(np.concatenate(stated))) if stated else 0.0
 
 
-def _exact(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
-    """A moved centre or a load as bodies have it, and whether that was in its columns already, within errors."""
-    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
-    cause, values = layout.placed[number], selected.coefficients[columns]
+def _exact(selected: SelectedCauses, number: int) -> Refined:
+    """A moved centre or a load as bodies have it."""
+    layout = selected.rows.layout
+    cause, (values, error) = layout.placed[number], _fitted(selected, number)
     if cause.cause is catalogue.LINK_CENTRE:
         exact = at_its_place(cause, layout.arm, values)
     else:
         exact = as_a_body(cause, layout.arm, *carried_in(selected, cause))
     assert cause.inertial is not None
     assert exact.inertial is not None
-    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
     unsure = np.sqrt(np.sum((cause.inertial * error) ** 2, axis=1))
     return exact, bool(np.all(np.abs((exact.inertial - cause.inertial) @ values) <= NOISE.settled * unsure))
 
 
-def _leaning(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
-    """A leaning gravity whose pull keeps its size, and whether that was in its columns already, within errors."""
-    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
-    cause, values = layout.placed[number], selected.coefficients[columns]
+def _leaning(selected: SelectedCauses, number: int) -> Refined:
+    """A leaning gravity whose pull keeps its size."""
+    layout = selected.rows.layout
+    cause, (values, error) = layout.placed[number], _fitted(selected, number)
     exact = as_it_leans(cause, layout.arm, values)
     if not (isinstance(cause.columns, Law) and isinstance(exact.columns, Law)):
         return cause, True
     before, after = (np.array(each.numbers).reshape(-1, 3) for each in (cause.columns, exact.columns))
-    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
     change = float(np.linalg.norm(values @ (after - before)))
     return exact, change <= NOISE.settled * float(np.linalg.norm(error @ np.abs(before)))
 
 
-def _as_carried(selected: SelectedCauses, number: int) -> tuple[PlacedCause, bool]:
-    """A load that comes and goes as bodies have it, and whether its inertia was formed for it, within errors."""
-    layout, columns = selected.rows.layout, selected.rows.layout.columns[number]
-    cause, values = layout.placed[number], selected.coefficients[columns]
+def _as_carried(selected: SelectedCauses, number: int) -> Refined:
+    """A load that comes and goes as bodies have it."""
+    layout = selected.rows.layout
+    cause, (values, error) = layout.placed[number], _fitted(selected, number)
     exact = as_it_is_carried(cause, layout.arm, values)
     if exact is cause or not (isinstance(cause.columns, Law) and isinstance(exact.columns, Law)):
         return cause, True
-    error = np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
     before, after = (np.array(each.numbers[1 : 1 + len(OF_A_LOAD)]) for each in (cause.columns, exact.columns))
     counted = [OF_A_LOAD.index(name) for name, _ in cause.parameters]
     rests = bool(np.all(np.abs(after - before)[counted] <= NOISE.settled * error))
