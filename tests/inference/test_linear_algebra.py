@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.inference.linear_algebra import among, crossed, profiled_gain
+from armscope.inference.linear_algebra import among, crossed, profiled_gain, spanned
 
 
 @pytest.mark.parametrize("chi2", [-1e-10, 0.0])
@@ -31,3 +31,18 @@ def test_products_are_looked_up_wherever_their_columns_stand(some: list[int], ot
     down, right = (np.array(each, dtype=np.intp) for each in (some, others))
     np.testing.assert_array_equal(crossed(G, down, right), G[np.ix_(down, right)])
     np.testing.assert_array_equal(among(G, down), G[np.ix_(down, down)])
+
+
+def test_what_rounding_alone_makes_of_a_column_is_no_direction() -> None:
+    rng = np.random.default_rng(1)
+    columns = rng.normal(size=(50, 4)) * [1.0, 40.0, 1e-3, 1.0]
+    nothing, twice = 1e-15 * rng.normal(size=(50, 1)), (columns[:, :1] + columns[:, 1:2]).astype(np.float32)
+    basis = spanned(np.hstack([columns, nothing, twice]), 1e-6)
+    assert basis.shape == (50, 4)
+    np.testing.assert_allclose(basis.T @ basis, np.eye(4), atol=1e-12)
+    np.testing.assert_allclose(basis @ (basis.T @ columns), columns, atol=1e-5)
+
+
+def test_of_no_columns_nothing_is_spanned() -> None:
+    assert spanned(np.empty((7, 0)), 1e-6).shape == (7, 0)
+    assert spanned(np.zeros((7, 2)), 1e-6).shape == (7, 0)

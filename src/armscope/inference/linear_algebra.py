@@ -6,6 +6,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import orth
 from scipy.linalg.blas import dtrmm
 from scipy.linalg.lapack import dpotrf, dtrtri, dtrtrs
 
@@ -133,6 +134,24 @@ class ColumnBlocks:
         V = solve_lower(cholesky, self.cross.transpose(1, 0, 2).reshape(k, m * c))
         V = V.reshape(k, m, c).transpose(1, 0, 2)
         return self.own - np.swapaxes(V, 1, 2) @ V, self.b - np.einsum("mkc,k->mc", V, whitened_rhs)
+
+
+def spanned(columns: Array, rounding: float) -> Array:
+    """What columns span, each in a unit of its own.
+
+    Of a column that is nothing but rounding, or of what one has beyond the others that is nothing else, chance would
+    make a direction like any other.
+
+    Args:
+        columns: (K, c), of sizes that can be compared.
+        rounding: share of the largest column, and of a column in its own unit, up to which it is rounding.
+
+    Returns:
+        (K, r) orthonormal.
+    """
+    size = np.linalg.norm(columns, axis=0)
+    there = size > rounding * size.max(initial=0.0)
+    return np.asarray(orth(columns[:, there] / size[there], rcond=rounding))
 
 
 def rss_reduction(own: Array, b: Array, before: Array) -> Array:

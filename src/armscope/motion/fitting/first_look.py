@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import orth
 
 from armscope.core.types import Array, Indices
+from armscope.inference.linear_algebra import spanned
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -97,7 +97,7 @@ def _waves(
     counts = np.concatenate([slow, fast])
     if not len(counts) or not moving.any():
         return ((), 1), np.zeros(len(left))
-    basis = orth(ordinary / np.maximum(np.linalg.norm(ordinary, axis=0), 1e-300))
+    basis = spanned(ordinary, FILTER.single)
     own = left[moving] - basis @ (basis.T @ left[moving])
     explained = np.zeros(len(counts))
     turned = list(parts([stretch], how))

@@ -17,9 +17,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import orth
 
 from armscope.core.types import Array
+from armscope.inference.linear_algebra import spanned
 from armscope.motion.constants import LIBRARY, PRIOR
 from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -93,7 +93,7 @@ class _Joint:
         self.moving = np.flatnonzero(rows.moving[:, j])
         own = rows.columns[j][self.moving].astype(np.float64)
         sides = np.isin(rows.at[j], OWN * j + np.array(SIDES))
-        self.basis = orth(own[:, ~sides] / np.maximum(np.linalg.norm(own[:, ~sides], axis=0), 1e-300))
+        self.basis = spanned(own[:, ~sides], FILTER.single)
         stated = np.nan_to_num(arm.stated_background[j, DRY]) * own[:, np.searchsorted(rows.at[j], OWN * j + DRY)]
         self.left = self.apart(rows.torque[self.moving, j] - rows.nominal[self.moving, j] + stated)
         self.slope = self.apart(-np.gradient(rows.nominal[:, j])[self.moving, None])

@@ -131,6 +131,11 @@ class FilterRules(Constants):
         "derived: they differ by a millionth",
         unit="widths",
     )
+    single: float = constant(
+        1e-6,
+        "of the largest column, or of one beyond the others, up to which it is rounding",
+        "derived: above that of columns, which are held in single precision",
+    )
     rounding: float = constant(
         1e-9, "share of a slope's square that is its own, from which it tells anything", "derived: far above rounding"
     )
