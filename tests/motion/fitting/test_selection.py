@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.model_estimate import stated_model
 from armscope.motion.fitting.rows import build_rows
-from armscope.motion.fitting.selection import _at_rest, named_first, starting_weights
+from armscope.motion.fitting.selection import _at_rest, starting_weights
 from armscope.motion.fitting.space import build_space
 from armscope.motion.library.layout import OWN, OWN_NAMES, TorqueLayout
 from armscope.motion.library.placing import place_causes
@@ -21,7 +16,6 @@ from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
-from armscope.verdict.effects import UNKNOWN
 from tests.motion.cured import JOINT, LONG, STATED, Motion, diagnosed
 from tests.motion.moving import Plant, moved, robot
 from tests.seeds import seeds
@@ -167,41 +161,3 @@ def test_friction_that_is_not_as_stated_counts_beside_the_laws_of_a_speed_curve(
 )
 def test_of_names_that_come_and_go_the_fewer_stay(rounds: list[set[int]], rests: bool) -> None:
     assert _at_rest([frozenset(each) for each in rounds]) == rests
-
-
-WORTHS = {(): 0.0, (0,): 100.0, (1,): 60.0, (2,): 50.0, (3,): 40.0, (1, 2): 80.0, (1, 3): 70.0, (2, 3): 99.0}
-"""Log posteriors of sets of names 1 to 3, or of the curve 0 that holds them; of all three it is 79."""
-
-
-class ToldWorths:
-    """A search in which every set of names has the worth that is told."""
-
-    names = frozenset({1, 2, 3})
-
-    def __init__(self) -> None:
-        self.space = SimpleNamespace(candidates=range(4))
-
-    def candidate(self, number: int) -> SimpleNamespace:
-        family, special = (UNKNOWN, self.names) if number == 0 else ("", frozenset())
-        return SimpleNamespace(family=family, is_curve=number == 0, special_cases=special)
-
-    def evaluated(self, effects: Iterable[SelectedEffect], _: object = None) -> SimpleNamespace:
-        chosen = tuple(effects)
-        worth = WORTHS.get(tuple(sorted(each.candidate for each in chosen)), 79.0)
-        return SimpleNamespace(chosen=chosen, log_posterior=worth)
-
-    def without(self, parent: SimpleNamespace, removed: Iterable[int]) -> SimpleNamespace:
-        gone = set(removed)
-        return self.evaluated(each for each in parent.chosen if each.candidate not in gone)
-
-    def additions(self, parent: SimpleNamespace, count: int, without: Iterable[int]) -> list[SimpleNamespace]:
-        there = {each.candidate for each in parent.chosen} | set(without)
-        more = [self.evaluated((*parent.chosen, SelectedEffect(n, 0))) for n in sorted(self.names - there)]
-        return sorted(more, key=lambda each: -each.log_posterior)[:count]
-
-
-def test_a_name_that_was_the_best_by_itself_gives_way_to_one_that_is_better_beside_the_others() -> None:
-    """One after the other they came, each for what was left: a square of the speed stayed, where friction falls."""
-    search: Any = ToldWorths()
-    named = named_first(search, search.evaluated([SelectedEffect(0, 0)]))
-    assert sorted(each.candidate for each in named.chosen) == [2, 3]

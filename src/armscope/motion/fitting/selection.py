@@ -20,6 +20,7 @@ from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.hoses import offsets_for_cables
 from armscope.motion.fitting.model_estimate import Estimate, stated_model
 from armscope.motion.fitting.near_reversals import told_by_reversals_alone
+from armscope.motion.fitting.preferred import named_first, plain_first
 from armscope.motion.fitting.refining import refined, sits_nowhere
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
@@ -35,7 +36,6 @@ from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.library.masses import has_its_own_inertia
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.timing import Stretch
-from armscope.verdict.effects import UNKNOWN
 
 
 def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
@@ -209,7 +209,8 @@ def chosen(
     else:
         found, effects = before
         best = search.best((), also=search.evaluated(effects, found))
-    best = offsets_for_cables(search, settled(search, named_first(search, best)), rows.layout.placed)
+    best = plain_first(search, settled(search, named_first(search, best)))
+    best = offsets_for_cables(search, best, rows.layout.placed)
     best = parted_where_they_differ(search, best, rows.layout.placed)
     return SelectedCauses(rows, weights, block, by_joint, space, problem, best)
 
@@ -265,33 +266,4 @@ def settled(search: Search, best: Hypothesis) -> Hypothesis:
     """A hypothesis without what is not worth its price beside the others."""
     while (weak := search.weakest(best)) is not None:
         best = search.without(best, [weak.candidate])
-    return best
-
-
-def named_first(search: Search, best: Hypothesis) -> Hypothesis:
-    """Names in place of what has none wherever they explain nearly all that it does; a free curve's rest may stay.
-
-    A curve fits every little thing about a real joint; that is no reason not to say what most of it is. A law of few
-    numbers fits less by chance, and what it has beyond the name must be next to nothing.
-    """
-    for effect in best.chosen:
-        candidate = search.candidate(effect.candidate)
-        if candidate.family != UNKNOWN or not candidate.special_cases or effect not in best.chosen:
-            continue
-        base = search.without(best, [effect.candidate])
-        others = set(range(len(search.space.candidates))) - candidate.special_cases
-        named = base
-        for _ in range(NOISE.names_for_a_curve):
-            better = search.additions(named, 1, others)
-            if not better or better[0].log_posterior <= named.log_posterior:
-                break
-            named = better[0]
-        for added in named.chosen[len(base.chosen) :]:
-            again = search.additions(search.without(named, [added.candidate]), 1, others)
-            named = max([named, *again], key=lambda hypothesis: hypothesis.log_posterior)
-        worth = best.log_posterior - base.log_posterior
-        most = NOISE.nearly_all if candidate.is_curve else NOISE.nearly_all_of_a_law
-        if named.log_posterior - base.log_posterior > most * worth:
-            both = [search.evaluated((*named.chosen, effect), named)] if candidate.is_curve else []
-            best = max([named, *both], key=lambda hypothesis: hypothesis.log_posterior)
     return best

@@ -21,9 +21,10 @@ from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.consistency import agreement
 from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.near_reversals import told_by_reversals_alone
+from armscope.motion.fitting.preferred import named_first, plain_first
 from armscope.motion.fitting.refining import is_anywhere
 from armscope.motion.fitting.selected import SelectedCauses
-from armscope.motion.fitting.selection import at_own_gain, chosen, named_first, settled
+from armscope.motion.fitting.selection import at_own_gain, chosen, settled
 from armscope.motion.fitting.space import build_space, without_backgrounds
 from armscope.motion.library import catalogue
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -86,7 +87,7 @@ def _alone(selected: SelectedCauses, kept: Sequence[SelectedEffect]) -> Selected
     """
     search = Search.on(selected.problem)
     best = search.with_best_sizes(search.evaluated(kept, selected.best))
-    return replace(selected, best=settled(search, named_first(search, settled(search, best))))
+    return replace(selected, best=plain_first(search, settled(search, named_first(search, settled(search, best)))))
 
 
 def _foretells_more(selected: SelectedCauses, alone: Hypothesis) -> bool:
