@@ -13,12 +13,12 @@ from armscope.core.types import Progress, unheard
 from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
+from armscope.motion.fitting.friction_turns import how_friction_turns
 from armscope.motion.fitting.gains import torque_of
 from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_of, select_causes
-from armscope.motion.fitting.side_widths import how_friction_turns
 from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.fitting.with_changes import with_changes

@@ -12,7 +12,7 @@ from scipy.signal import butter, lfilter
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.side_widths import how_friction_turns
+from armscope.motion.fitting.friction_turns import how_friction_turns
 from armscope.motion.library.dry_friction import ChangeOfSides
 from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.file import load_motion_model, save_motion_model

@@ -6,7 +6,8 @@ rises, with speed. So widths compete first. One is chosen where by itself it say
 with any law that the library has for friction over speed, and with a delay: a single number beside two or three.
 
 So do moments: what turns 40 ms later than the speed is behind a low-pass of 25 Hz no small shift, and steps from none
-would not lead there.
+would not lead there. And so do low-passes of all torques, behind which friction does not change sides as a step does,
+however late: what is rounded off by one would ask for laws of friction near rest.
 """
 
 from __future__ import annotations
