@@ -195,6 +195,21 @@ def test_who_adds_what_the_card_says_has_the_torque(kind: str, seed: int) -> Non
     assert left((STATED, case.planted), (STATED, case.read(cause.cure), as_it_is), seed) < 0.03
 
 
+@pytest.mark.parametrize("seed", seeds(11, 14))
+def test_dry_and_viscous_friction_that_both_fall_with_warmth_are_two_causes(seed: int) -> None:
+    """Grease thins, and a seal lets go: told as one of them, that one had the other's size."""
+    planted = at_joint(lambda q, v, a, T: -0.12 * (T - 25) * v - 0.1 * (T - 25) * np.sign(v))
+    found = {cause.title: cause for cause in diagnosed(STATED, planted, seed, True)}
+    assert set(found) == {f"viscous thermal friction at {AT}", f"dry thermal friction at {AT}"}
+    for title, true in ((f"viscous thermal friction at {AT}", -0.12), (f"dry thermal friction at {AT}", -0.1)):
+        low, high = found[title].parameters[0].interval
+        assert low < true < high
+        assert high < 0.9 * true
+    both = [with_warmth(cause.cure) for cause in found.values()]
+    cured = lambda motion, torque: both[1](motion, both[0](motion, torque))
+    assert left((STATED, planted), (STATED, cured, as_it_is), seed) < 0.03
+
+
 def test_friction_near_rest_that_is_no_bell_is_written_out_with_both_its_terms() -> None:
     """A bell, and how it changes as it becomes wider."""
     height, wider, speed = Parameter("stribeck", "N m", 0.8, 0.1), Parameter("wider", "N m", -0.5, 0.1), 0.3

@@ -235,6 +235,8 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
             return True
     if one.cause in CHANGES and one.runs == other.runs:
         return one.cause is other.cause
+    if one.cause is other.cause and one.cause.each_form:
+        return one.variant == other.variant
     return one.cause is other.cause and not (one.runs or other.runs)
 
 

@@ -102,6 +102,7 @@ TEMPERATURE_FRICTION = Cause(
     "Let friction follow the temperature, or warm the arm up first.",
     clause=clauses.warming_clause,
     remedy=remedies_of_laws.with_warmth,
+    each_form=True,  # grease thins, and a seal's dry friction falls as well
 )
 COUPLED_FRICTION = Cause(
     "coupled_friction",

@@ -39,6 +39,7 @@ class Cause:
         remedy: its cure with the numbers found; the cure as it stands where not given.
         cures: of its forms (`PlacedCause.variant`) that are put right in another way.
         open_clause, open_cure: both where its number is not determined.
+        each_form: whether its forms may stand side by side, each with a name of its own.
         confirm_common: how it is confirmed where all joints have it in common; as elsewhere where not given.
     """
 
@@ -56,6 +57,7 @@ class Cause:
     open_clause: Clause | None = field(default=None, repr=False, compare=False)
     open_cure: str = field(default="", repr=False, compare=False)
     confirm_common: str = field(default="", repr=False, compare=False)
+    each_form: bool = field(default=False, repr=False, compare=False)
 
     @property
     def nameless(self) -> bool:

@@ -83,8 +83,9 @@ def at_place(words: str) -> Clause:
 
 def warming_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Friction that changes as gears warm up, by a temperature or unrecorded."""
-    what = "with temperature" if cause.driver == "temperature" else "while the arm runs"
-    return f"friction of {cause.location} changes {what} ({rms_of(cause)})"
+    slope, when = cause.parameters[0], "with temperature" if cause.driver == "temperature" else "while the arm runs"
+    which, way = "dry" if slope.name.startswith("dry") else "viscous", "falls" if slope.value < 0 else "grows"
+    return f"{which} friction of {cause.location} {way} {when} ({rms_of(cause)})"
 
 
 def between_joints(words: str) -> Clause:

@@ -92,7 +92,8 @@ def title(placed: PlacedCause) -> str:
     where = f" in {run_in_words(placed.runs[0])}" if placed.runs and placed.runs[0] else ""
     if placed.cause.nameless:
         return f"an unknown torque at {placed.location} that follows the {placed.driver}"
-    name = placed.cause.name.replace("_", " ")
+    form = f"{placed.variant} " if placed.cause.each_form else ""
+    name = form + placed.cause.name.replace("_", " ")
     place = "" if placed.location == "payload" else f" at {placed.location}"
     return f"{name}{place}{where}"
 
