@@ -136,7 +136,8 @@ GAIN = Cause(
 DELAY = Cause(
     "torque_delay",
     DRIVE,
-    "Torque was recorded at another time than the motion that it belongs to.",
+    "Torque was recorded at another time than the motion that it belongs to: behind a filter it is late, and a command "
+    "that a drive holds until the next one is early by half of that time.",
     "Shift the recorded torque against the motion and watch the difference.",
     "Shift the torque back by the delay, or simulate the delay.",
     clause=clauses.delay_clause,
