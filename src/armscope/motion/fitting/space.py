@@ -25,6 +25,7 @@ from armscope.motion.library.changes_catalogue import CHANGES, LOAD_CHANGE
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.library.linkage import BETWEEN_LINKS
+from armscope.motion.library.warmth import is_while_running
 
 OF_MASSES, OF_REVERSALS = frozenset({"masses", "link masses"}), frozenset({"reversals"})
 """Names of the families by which masses are off without a name, and by which friction changes sides."""
@@ -235,7 +236,7 @@ def _clash(one: PlacedCause, other: PlacedCause) -> bool:
             return True
     if one.cause in CHANGES and one.runs == other.runs:
         return one.cause is other.cause
-    if one.cause is other.cause and one.cause.each_form:
+    if one.cause is other.cause and one.cause.each_form and not is_while_running(one.columns):
         return one.variant == other.variant
     return one.cause is other.cause and not (one.runs or other.runs)
 
