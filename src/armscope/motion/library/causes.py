@@ -39,8 +39,8 @@ class Cause:
         remedy: its cure with the numbers found; the cure as it stands where not given.
         cures: of its forms (`PlacedCause.variant`) that are put right in another way.
         open_clause, open_cure: both where its number is not determined.
-        each_form: whether its forms may stand side by side, each with a name of its own; not while the arm runs, where each
-            run has one moment, and two slopes foretell the next one worse than one.
+        each_form: whether its forms may stand side by side, each with a name of its own; not while the arm runs, where
+            each run has one moment, and two slopes foretell the next one worse than one.
         confirm_common: how it is confirmed where all joints have it in common; as elsewhere where not given.
     """
 
