@@ -84,6 +84,8 @@ def holds(effect: FoundEffect, parameter: str, truth: float) -> bool:
     [
         pytest.param(WRONG, id="wrong"),
         pytest.param(-WRONG, id="wrong the other way", marks=pytest.mark.long),
+        pytest.param(np.full(6, 0.15), id="alike"),
+        pytest.param(np.full(6, -0.15), id="alike the other way", marks=pytest.mark.long),
         # of masses as stated beside a payload that is not, the next test asks
         pytest.param(np.zeros(6), id="as stated", marks=pytest.mark.long),
     ],

@@ -75,7 +75,7 @@ def test_a_heavier_link_loads_as_one_of_that_mass_does() -> None:
     stated = Scene(arm, table)
     for link in (1, 3, 6):
         heavier = Scene(arm, table, Misstated(masses=0.2 * np.eye(6)[link - 1]))
-        for found, expected in zip(stated.with_heavier_link(link, 0.2).wrenches, heavier.wrenches, strict=True):
+        for found, expected in zip(stated.with_heavier_links((link,), 0.2).wrenches, heavier.wrenches, strict=True):
             np.testing.assert_allclose(found, expected, atol=1e-9)
 
 

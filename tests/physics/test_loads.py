@@ -48,15 +48,15 @@ def test_masses_in_error_move_the_arm_as_one_with_those_masses(name: str) -> Non
     table = full_table(arm, 30, seed=3)
     parts = giving(arm, table)
     placed = mass_errors(arm, table, parts)
-    assert [p.location for p in placed] == [*(f"link {j}" for j in range(1, arm.n_joints + 1)), "payload"]
+    assert [p.location for p in placed] == [*(f"link {j}" for j in range(1, arm.n_joints + 1)), "all links", "payload"]
     assert {p.effect for p in placed} == {STATED_MASSES}
-    shares = np.random.default_rng(4).uniform(-0.3, 0.3, arm.n_joints + 1)
+    shares = np.random.default_rng(4).uniform(-0.3, 0.3, arm.n_joints + 2)
     errors = [Part(p, np.array([share])) for p, share in zip(placed, shares, strict=True)]
     rigid = Scene(arm, table).posture().tool
     found = Scene(arm, table).posture([*parts, *errors]).tool - rigid
     assert table.payload is not None
     loaded = replace(table, payload=(1 + shares[-1]) * table.payload)
-    true = Scene(heavier(arm, shares[:-1]), loaded).posture(parts).tool - rigid
+    true = Scene(heavier(arm, shares[:-2] + shares[-2]), loaded).posture(parts).tool - rigid
     stated = Scene(arm, table).posture(parts).tool - rigid
     assert np.abs(found - true).max() < 1e-3 * np.abs(true - stated).max()
 
@@ -69,7 +69,7 @@ def test_loads_that_were_recorded_need_no_masses() -> None:
     assert mass_errors(arm, table, drives) == []
     assert {p.variant for p in payload_errors(table, drives)} == set()
     bearings = [part for part in giving(arm, table) if part.placed.effect is BEARING_COMPLIANCE]
-    assert len(mass_errors(arm, table, bearings)) == arm.n_joints + 1
+    assert len(mass_errors(arm, table, bearings)) == arm.n_joints + 2
 
 
 def test_what_does_not_give_way_shows_no_mass() -> None:

@@ -75,9 +75,9 @@ def _heavier_by_share(scene: LoadedArm, load: Driver) -> Array:
     return change
 
 
-def _heavier_link(scene: LoadedArm, load: Driver, link: int) -> Array:
-    """Slope of a load driver over the relative error of a link's mass; loads themselves are proportional to it."""
-    change: Array = scene.with_heavier_link(link, FORM.slope_share).driver(load) - scene.driver(load)
+def _heavier_links(scene: LoadedArm, load: Driver, link: int, *links: int) -> Array:
+    """Slope of a load driver over the relative error of links' masses; loads themselves are proportional to it."""
+    change: Array = scene.with_heavier_links((link, *links), FORM.slope_share).driver(load) - scene.driver(load)
     return change / FORM.slope_share
 
 
@@ -123,7 +123,7 @@ LOADS: dict[str, DriverKind] = {
     "heavier": DriverKind(_heavier, follows=_LOAD),
     "heavier during run": DriverKind(_heavier_during_run, follows=_LOAD | {"run"}),
     "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
-    "heavier link": DriverKind(_heavier_link, follows=_LOAD),
+    "heavier link": DriverKind(_heavier_links, follows=_LOAD),
     "off centre": DriverKind(_off_centre, follows=_LOAD),
     "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
     "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),

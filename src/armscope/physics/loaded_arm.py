@@ -100,16 +100,17 @@ class LoadedArm(ABC):
             more, *weight_at_tool(self.arm, self.loaded, self.loaded_as(more).payload - self.payload)
         )
 
-    def with_heavier_link(self, link: int, share: float) -> Self:
-        """The same rows with the mass of link ``link`` (from 1) larger by a share of it."""
-        # loads ask link by link: only the last one's are kept
-        known: tuple[int, float, Self] | None = self._memory.get("heavier link")
-        if known is None or known[:2] != (link, share):
+    def with_heavier_links(self, links: tuple[int, ...], share: float) -> Self:
+        """The same rows with the masses of some links (from 1) larger by a share of each."""
+        # loads ask links by links: only the last ones' are kept
+        known: tuple[tuple[int, ...], float, Self] | None = self._memory.get("heavier links")
+        if known is None or known[:2] != (links, share):
             stated = np.zeros(self.arm.n_joints) if self.misstated.masses is None else self.misstated.masses
-            heavier = replace(self.misstated, masses=stated + share * np.eye(self.arm.n_joints)[link - 1])
-            force, moment = weight_of_link(self.arm, self.loaded, link)
-            known = (link, share, self._loaded_by(heavier, share * force, share * moment))
-            self._memory["heavier link"] = known
+            heavier = replace(self.misstated, masses=stated + share * np.isin(np.arange(len(stated)) + 1, links))
+            weights = [weight_of_link(self.arm, self.loaded, link) for link in links]
+            force, moment = (share * np.sum(each, axis=0) for each in zip(*weights, strict=True))
+            known = (links, share, self._loaded_by(heavier, force, moment))
+            self._memory["heavier links"] = known
         return known[2]
 
     @property

@@ -144,7 +144,7 @@ class Reader:
         counts = {len(names), required}
         if len(names) < len(parameters):
             last = parameters[-1].name
-            if last in RUNS and count >= required:
+            if last in (*RUNS, "links") and count >= required:
                 return [*names, *[last] * (count - len(names))]
             # as many more as it may be: the ends of a range, or weights of mass moments
             more = 2 if last == "ends" else 4 * self.arm.n_joints
@@ -168,9 +168,13 @@ class Reader:
         if name == "location":
             self._frame(value, ("base", "joint"), place)
             return value
-        if name in ("j", "link", "axis", "row", "column"):
+        if name in ("j", "link", "links", "axis", "row", "column"):
             motors = self.arm.n_joints if kind.startswith("chain") else self.arm.n_motors
-            most = {"j": motors, "link": self.arm.n_joints, "axis": 5 if kind == "bend" else 2}
+            most = {
+                "j": motors,
+                **dict.fromkeys(("link", "links"), self.arm.n_joints),
+                "axis": 5 if kind == "bend" else 2,
+            }
             most |= dict.fromkeys(("row", "column"), 5 if kind == "attitude twice" else 3)
             least = 0 if name == "axis" else 1
             if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most[name]:
