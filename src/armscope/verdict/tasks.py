@@ -167,7 +167,7 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     )
 
 
-FORMULA = re.compile(r"(?:commanded|length|mass) = (.*)", re.DOTALL)
+FORMULA = re.compile(r"(?:commanded|length|mass|turn) = (.*)", re.DOTALL)
 """What a rule's numbers are named in; a row's and a zero's stand in their instructions."""
 BEYOND_THE_RULE = (
     " The mass moments behind this number were fitted, too, and stand in no rule: the error expected is that of the "

@@ -16,6 +16,7 @@ from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.entered_together import CALIBRATION, Job, calibrated_last, in_one_step, moved_by, pays_together
 from armscope.verdict.family_cures import cure_of_family, warms
+from armscope.verdict.growth import growth_in_words
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
@@ -114,7 +115,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     major, minor = jobs(worth.causes), jobs(single)
     repairs = [*major, *together]
     worst = {each.family: each.worst for each in verdict.background_families if each.present and each.family in SMALL}
-    small = [(_everywhere(family, worst[family]), moved) for family, moved in worth.small.items() if family in worst]
+    growth = growth_in_words(verdict.model.background)
+    small = [(_everywhere(each, worst[each], growth), moved) for each, moved in worth.small.items() if each in worst]
     before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
     each_pays = [job for job in repairs if alone[id(job[0])] < before]
@@ -277,15 +279,16 @@ def _calibrating(calibration: Job, geometric: Sequence[Job]) -> Job:
     return replace(task, instruction=instruction, members=members), sum((each for _, each in geometric), moved)
 
 
-def _everywhere(family: str, worst: str) -> Task:
+def _everywhere(family: str, worst: str, growth: str) -> Task:
     """What takes out the small errors of a family in all joints and links at once."""
+    cure = cure_of_family(family, (), True, worst, growth).replace("`", "")
     warming, usual = warms(family, worst), "in any session" if family == DRIFT else "any arm has"
     return Task(
         what=capitalised(GROWS.format(worst) if warming else f"{SMALL[family]}, as {usual}"),
         place=worst if warming else "set-up" if family == DRIFT else "whole arm",
         change="warm-up" if warming else ALL_AT_ONCE[family],
         motion="",
-        instruction=cure_of_family(family, (), True, worst).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
+        instruction=cure + (OWN_FIT if family == GEOMETRIC else ""),
         cure="",
         confirm=AFTER_REPAIRS,
         family=family,
