@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel, domain_inputs
 from armscope.compensation.forward import BlackBoxArm, Forward, PhysicalArm
+from armscope.compensation.known_range import beyond_time
 from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import (
     Identified,
-    beyond_time,
     missing_context,
     with_empty_context,
     with_measured_tool,
@@ -108,7 +108,8 @@ def compensate_physical(
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         refuse(refused, missing, f"no {column}, which the model follows")
-    refuse(refused, beyond_time(model, identified, rows), "outside the identified range: time_s, which a drift follows")
+    late = "outside the identified range: time_s, which a drift or a curve follows"
+    refuse(refused, beyond_time(model, identified, rows), late)
     rows = with_empty_context(rows)
 
     def forward(nominal: Array) -> tuple[Forward, str]:
