@@ -20,7 +20,7 @@ from armscope.robot import Arm
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
-from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
+from armscope.verdict.doubts import OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.filenames import CURVES
@@ -145,7 +145,7 @@ def _in_doubt(task: Task, doubt: Doubt) -> Task:
         change=OPEN,
         motion="",
         instruction=doubt.instruction + task.instruction,
-        cure=MEANWHILE,
+        cure=doubt.meanwhile,
         confirm=doubt.confirm,
     )
 

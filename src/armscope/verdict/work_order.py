@@ -18,13 +18,12 @@ from armscope.verdict.entered_together import CALIBRATION, Job, calibrated_last,
 from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.growth import growth_in_words
 from armscope.verdict.importance import minor_and_told
+from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
 
-ALL_AT_ONCE = {
-    GEOMETRIC: CALIBRATION, ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
-    THERMAL: "temperature",
-}  # fmt: skip
+ALL_AT_ONCE = {GEOMETRIC: CALIBRATION, ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
+               THERMAL: "temperature"}  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
 OWN_FIT = (
     " The expected error is that of the model fitted here; armscope calibrate fits zeros and rows afresh, and reports "
@@ -59,15 +58,19 @@ class WorkOrder:
             only after that (minor effects, too, where it is much), what pays only together as one step, and corrected
             commands for what is left.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
+        instrument_first: whether the instrument is to be settled before commands are corrected.
     """
 
     tasks: tuple[Task, ...]
     besides: tuple[str, ...]
+    instrument_first: bool = False
 
     @property
     def caution(self) -> str:
         """What must not be done together; "" where there is one step, or none that corrects commands by the model."""
         by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
+        if by_model and self.instrument_first:
+            return SETTLE_FIRST
         return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
 
     @property
@@ -108,7 +111,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         return poses is not None and poses.settle and poses.ask_about(effect)
 
     def jobs(some: Sequence[Repair]) -> list[Job]:
-        return [(task_of(scene, each, each.effects[0], asked(each.effects[0])), each.moved) for each in some]
+        tasks = [task_of(scene, each, each.effects[0], asked(each.effects[0])) for each in some]
+        return [(beside_the_instrument(task, verdict), each.moved) for task, each in zip(tasks, some, strict=True)]
 
     told, single = _told_together(verdict, worth.single)
     together = [_as_one(cause, members, jobs(members)) for cause, members in told]
@@ -153,7 +157,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         done.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
-    return WorkOrder(tuple(done), (*lost, *(f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)))
+    waiting_on = (f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)
+    return WorkOrder(tuple(done), (*lost, *waiting_on), instrument_is_open(verdict))
 
 
 def _told_together(
