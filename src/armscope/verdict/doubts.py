@@ -18,6 +18,7 @@ MAY_BE_READ_SO = (
     "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "
     "instrument's own error, and such commands would move a good arm wrongly."
 )
+SIZE_OPEN = "Confirm it first: these rows do not determine its size (each interval holds zero)."
 NOT_THE_ARMS = ("instrument", "drift")
 """Families of what is read wrongly, or stood elsewhere: the instrument, its target, the set-up."""
 
@@ -60,11 +61,14 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     how = " (measure the poses in next_poses.csv)" if asked else " (by the tests at the arm)" if rivals else ""
     places = list(dict.fromkeys(each.location for each in readings))
     _, _, region = effect.title.partition(", ")
+    first = f"First find out which it is: {which}{how}."
+    if effect.size_open:
+        first = f"{SIZE_OPEN} {first}" if rivals else SIZE_OPEN
     return Doubt(
         what=kind_and_place(effect),
         place=enumerated(places, "or") if _either(effect) or not region else region,
         confirm=_shown_by(effect, rivals) if rivals else effect.confirm,
-        instruction=f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: ",
+        instruction=f"{first} If {exact_phrase(effect)}: ",
         meanwhile=MAY_BE_READ_SO if any(each.family in NOT_THE_ARMS for each in readings) else MEANWHILE,
     )
 

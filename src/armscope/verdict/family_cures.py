@@ -47,6 +47,7 @@ SCALE_ALL = (
     "origins of a URDF):"
 )
 ALSO_NAMED = "What is named besides comes on top, each by its own formula."
+CONFIRM_FIRST = "Confirm it first: these rows do not determine its size."
 OVER_TIME = "What follows the time moved meanwhile: fasten it and measure again; its curve corrects nothing later."
 
 
@@ -71,7 +72,7 @@ def cure_of_family(
         A sentence or two.
     """
     if len(members) == 1 and not everywhere:
-        return members[0].cure
+        return f"{CONFIRM_FIRST} {members[0].cure}" if members[0].size_open else members[0].cure
     if warms(family, worst) and not members:
         return WARMING
     if not members and family in _WITHOUT_A_NAME:
