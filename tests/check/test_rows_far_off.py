@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.check.report import check
+from armscope.robot import chain
 
 
 def again(table, rows):
@@ -48,3 +49,37 @@ def test_neighbours_that_exchanged_their_points_are_told_as_that(arm, sound):
     told = " ".join(each.text() for each in check(table, arm).suspicions)
     assert "2 rows seem to have exchanged their points: a: 21, a: 22" in told
     assert "row before" not in told
+
+
+TOOLS_M = np.array([[0.0, 0.0, 0.1], [0.03, -0.02, 0.12]])
+
+
+def with_two_targets(arm, sound, wrong):
+    """A table of two reflectors on the tool, in which some rows carry the other's name."""
+    frames = chain(arm, sound.motor_angles)
+    which = np.arange(len(sound)) % 2
+    shift = np.einsum("nij,nj->ni", frames.tool_rotation, TOOLS_M[which] - arm.tool)
+    points = frames.tool + shift + 3e-5 * np.random.default_rng(3).normal(size=shift.shape)
+    label = which.copy()
+    label[wrong] = 1 - label[wrong]
+    return replace(sound, positions=points, orientation=None, target=np.array(["p1", "p2"])[label])
+
+
+@pytest.mark.parametrize(("wrong", "weight"), [([7], "hint"), ([7, 20], "hint"), (list(range(3, 48, 5)), "problem")])
+def test_rows_with_the_name_of_another_target_are_told_by_the_one_they_read_as(wrong, weight, arm, sound):
+    """They were mistyped, or measured while the arm moved: 40.3 mm off, each by the way between two targets."""
+    found = check(with_two_targets(arm, sound, wrong), arm).suspicions
+    (told,) = [each for each in found if "reads as target" in each.text()]
+    assert told.weight == weight
+    for row in wrong[:10]:
+        assert f"row a: {row + 1}: reads as target p{row % 2 + 1}" in told.text()
+    assert "Correct the label" in told.text()
+    assert not any("istyped" in each.text() or "exchanged" in each.text() for each in found)
+
+
+def test_a_row_that_is_off_in_another_way_reads_as_no_other_target(arm, sound):
+    table = with_two_targets(arm, sound, [])
+    table.positions[7] += [0.0, 0.04, 0.0]
+    told = " ".join(each.text() for each in check(table, arm).suspicions)
+    assert "istyped" in told
+    assert "reads as" not in told

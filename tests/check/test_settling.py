@@ -64,6 +64,35 @@ def test_an_arm_that_came_to_rest_is_not(seed: int) -> None:
     assert not told(session(seed, plain=True))
 
 
+def hysteresis(seed: int) -> Array:
+    """(N, m) rad by which joint 2 stays behind, full after a large change of an upright arm's load."""
+    angles = session(seed).motor_angles
+    load = np.sin(angles[:, 1]) + 0.3 * np.sin(angles[:, 1] + angles[:, 2])
+    before = np.concatenate([load[:1], load[:-1]])
+    return np.outer(5e-4 * np.tanh((before - load) / 0.6), np.arange(6) == 1)
+
+
+@pytest.mark.parametrize("seed", seeds(4, 5, 6, 12))
+def test_hysteresis_by_the_last_change_of_load_is_a_hint_with_its_share(seed: int) -> None:
+    """It goes with the motion, too: a sound table was refused, though the law left ten times the noise's squares."""
+    (found,) = told(session(seed, hysteresis(seed), plain=True))
+    assert found.weight == "hint"
+    assert "% of what a plain arm leaves" in found.statement
+    assert "take that share" not in found.cure
+    assert "Hysteresis" in found.cure
+
+
+@pytest.mark.parametrize("seed", seeds(4, 5, 6, 12, 13))
+@pytest.mark.parametrize(("noise_mm", "weight"), [(None, "problem"), (0.03, "problem"), (1e-3, "hint")])
+def test_what_leaves_far_more_than_the_stated_noise_is_no_reason_to_refuse(
+    seed: int, noise_mm: float | None, weight: str
+) -> None:
+    table = session(seed, SHARES * moves(seed), plain=True)
+    arm = replace(ur_like(), sigma=None if noise_mm is None else 1e-3 * noise_mm)
+    (found,) = [each for each in check(table, arm).suspicions if each.kind == SETTLED]
+    assert found.weight == weight
+
+
 def test_moves_are_from_the_row_before_of_the_same_run() -> None:
     table = session(3).rows(np.arange(6))
     table = replace(table, run=np.array(["a", "b"] * 3), time=np.array([3.0, 0.0, 2.0, 1.0, 1.0, 2.0]))

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from armscope.physics.registry import effect_named
-from armscope.verdict.doubts import doubt_of, unless_confirmed
-from armscope.verdict.effects import Alternative
+from armscope.verdict.doubts import SIZE_OPEN, doubt_of, unless_confirmed
+from armscope.verdict.effects import Alternative, Parameter
 from tests.report import verdicts
 
 LINK = Alternative("link_geometry", "link 6", "geometric", 1.5, "constant", 1.5, False)
@@ -46,3 +46,17 @@ def test_a_sure_name_has_no_doubt_but_says_what_held_out_rows_do_not_exclude() -
     assert unless_confirmed(seldom).startswith("Change nothing here before that shows it: ")
     assert "only 20 % of the tables" in unless_confirmed(seldom)
     assert unless_confirmed(replace(seldom, inclusion=0.6)) == unless_confirmed(replace(seldom, inclusion=None)) == ""
+
+
+def test_a_size_that_may_be_zero_is_confirmed_before_anything_is_replaced() -> None:
+    size = Parameter("compliance", "rad/(N m)", 9e-6, 1e-5)
+    bearing = verdicts.found("bearing_compliance", "joint 6", size, named_as="region", title="elastic, around joint 6")
+    doubt = doubt_of(bearing)
+    assert doubt
+    assert doubt.instruction.startswith(f"{SIZE_OPEN} If the bearing of joint 6")
+    against = doubt_of(replace(bearing, alternatives=(LINK,)))
+    assert against
+    assert against.instruction.startswith(f"{SIZE_OPEN} First find out which it is: ")
+    sure = doubt_of(replace(bearing, parameters=(replace(size, stderr=1e-6),)))
+    assert sure
+    assert SIZE_OPEN not in sure.instruction

@@ -1,7 +1,10 @@
 """What mends several effects of a family at once, or its small errors in the whole arm."""
 
+from dataclasses import replace
+
 import pytest
 
+from armscope.verdict.effects import Parameter
 from armscope.verdict.family_cures import cure_of_family
 from tests.report import verdicts
 
@@ -9,6 +12,16 @@ from tests.report import verdicts
 def test_a_single_effect_has_its_own_cure() -> None:
     alone = verdicts.compliance("joint 2")
     assert cure_of_family("elastic", [alone], everywhere=False) == alone.cure
+
+
+def test_a_cure_of_a_size_that_may_be_zero_begins_with_its_confirmation() -> None:
+    size = Parameter("offset", "rad", 1e-4, 1e-4)
+    assert cure_of_family("geometric", [verdicts.found("joint_offset", "joint 2", size)], False).startswith(
+        "Confirm it"
+    )
+    sizes = (replace(size, stderr=1e-5), Parameter("phase", "rad", 0.1, 0.2), Parameter("per_turn", "1/turn", 2, 0))
+    sure = verdicts.found("joint_offset", "joint 2", *sizes)
+    assert cure_of_family("geometric", [sure], everywhere=False) == sure.cure
 
 
 def test_several_places_or_the_whole_arm_are_mended_as_a_family() -> None:

@@ -47,6 +47,9 @@ class Settling(Constants):
         "judgement: play of a joint that was not recorded has the side",
         unit="nats",
     )
+    times_noise: float = constant(
+        3.0, "beyond which what the law leaves is told to be more than noise", "judgement: a plain arm's rest is in it"
+    )
     most: float = constant(
         0.5, "of what a plain arm leaves (mean square), below which it is no hint", "judgement: most of it"
     )

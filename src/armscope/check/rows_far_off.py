@@ -1,4 +1,4 @@
-"""Rows whose points are not those of their angles: exchanged with another's, the row before's, or nobody's."""
+"""Rows whose points are not those of their angles: of another target, another row's, the row before's, or nobody's."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from armscope.robot import Arm
 
 
 def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], State]) -> list[Suspicion]:
-    """Rows whose points fit the row before, each other's angles, in pairs or rings, or nobody's.
+    """Rows whose points fit the row before, another target, each other's angles, in pairs or rings, or nobody's.
 
     Args:
         arm: the nominal arm.
@@ -35,7 +35,8 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
     misfit = scale_of(residuals)
     if np.linalg.norm(residuals, axis=1).max() < TRIALS.exchanged * misfit:
         return []
-    residuals = rows.residuals(robust_least_squares(rows, state, rows.free("nominal")).state)
+    state = robust_least_squares(rows, state, rows.free("nominal")).state
+    residuals = rows.residuals(state)
     distance, usual = np.linalg.norm(residuals, axis=1), scale_of(residuals)
     far = np.flatnonzero(distance > TRIALS.exchanged * usual)
     if not 1 <= len(far) <= 500:
@@ -43,6 +44,9 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
     predicted, near = some.positions - residuals, TRIALS.fits_another * usual
     stale = far[_of_the_row_before(some, predicted, far, near)]
     far = np.setdiff1d(far, stale)
+    reads_as = _targets_read(rows, state, far, near)
+    mislabelled, far = far[reads_as >= 0], far[reads_as < 0]
+    reads_as = reads_as[reads_as >= 0]
     angles_of, points_of = _assigned(predicted[far], some.positions[far], rows.base[far])
     matched = np.linalg.norm(predicted[far[angles_of]] - some.positions[far[points_of]], axis=1) < near
     matched &= (angles_of != points_of) & (rows.base[far[angles_of]] == rows.base[far[points_of]])
@@ -52,6 +56,8 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
         many = f"{len(stale)} rows hold the points" if len(stale) > 1 else "1 row holds the point"
         cure = "Had the arm not moved yet, or was a reading written twice? Leave them out, or measure them again."
         found.append(Suspicion("hint" if few else "problem", f"{many} of the row before: {ids_of(some, stale)}", cure))
+    if len(mislabelled):
+        found.append(_told_of_labels(some, mislabelled, [rows.tool_names[tool] for tool in reads_as]))
     if matched.any():
         exchanged = far[angles_of[matched]]
         statement = f"{len(exchanged)} rows seem to have exchanged their points: {ids_of(some, exchanged)}"
@@ -71,6 +77,40 @@ def _of_the_row_before(table: Recordings, predicted: Array, far: Indices, near: 
     off = np.linalg.norm(table.positions[far] - predicted[far - 1], axis=1)
     exchanged = np.linalg.norm(table.positions[far - 1] - predicted[far], axis=1) < near
     return np.asarray((far > 0) & (table.run[far] == table.run[far - 1]) & (off < near) & ~exchanged)
+
+
+def _targets_read(rows: SetUp, state: State, far: Indices, near: float) -> Array:
+    """(n,) number of the other target that rows far off fit to within ``near`` m; -1 for none."""
+    own = on_the_tool(rows, state)[far]
+    apart = np.linalg.norm(own[:, None] - state.tools[None], axis=2)
+    apart[np.arange(len(far)), rows.tool[far]] = np.inf
+    nearest = np.argmin(apart, axis=1)
+    return np.asarray(np.where(apart[np.arange(len(far)), nearest] < near, nearest, -1))
+
+
+def on_the_tool(rows: SetUp, state: State) -> Array:
+    """Where each measured point is in the tool's frame, by base and tools as they are placed.
+
+    Args:
+        rows: N rows.
+        state: of base, tools and constants.
+
+    Returns:
+        (N, 3) m.
+    """
+    turned = np.einsum("nji,nj->ni", state.rotations[rows.base], rows.residuals(state))
+    return np.asarray(np.einsum("nji,nj->ni", rows.nominal_frames.tool_rotation, turned) + state.tools[rows.tool])
+
+
+def _told_of_labels(table: Recordings, rows: Indices, targets: list[str]) -> Suspicion:
+    """Rows that carry the name of another target than the one that was measured."""
+    few = len(rows) <= TRIALS.most_alone * len(table)
+    each = [f"row {ids_of(table, rows[[n]])}: reads as target {target}" for n, target in enumerate(targets)]
+    listed = "; ".join(each[:10]) + ("; ..." if len(each) > 10 else "")
+    statement = (
+        f"{'1 row fits' if len(rows) == 1 else f'{len(rows)} rows fit'} another target than column target says: "
+    )
+    return Suspicion("hint" if few else "problem", statement + listed, "Correct the label, and check again.")
 
 
 def _assigned(predicted: Array, measured: Array, base: Indices) -> tuple[Indices, Indices]:

@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.calibration.fit import placed
-from armscope.calibration.model import SetUp, set_up
-from armscope.calibration.state import State
+from armscope.calibration.model import set_up
 from armscope.check.constants import TRIALS
-from armscope.check.rows_far_off import ids_of
+from armscope.check.rows_far_off import ids_of, on_the_tool
 from armscope.check.suspicion import Suspicion
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
@@ -48,7 +47,7 @@ def two_reflectors(arm: Arm, table: Recordings, misfit: float) -> list[Suspicion
     state = placed(rows, TRIALS.steps)
     second = np.zeros(len(table), bool)
     for _ in range(TRIALS.steps):
-        before, second = second, _halved(_on_the_tool(rows, state))
+        before, second = second, _halved(on_the_tool(rows, state))
         if (second == before).all():
             break
         if min(second.sum(), (~second).sum()) < 3 * TRIALS.rows_per_parameter:
@@ -61,7 +60,7 @@ def two_reflectors(arm: Arm, table: Recordings, misfit: float) -> list[Suspicion
     left = rms_distance(rows.residuals(state))
     if left > TRIALS.clearly_better * misfit:
         return []
-    on_tool = _on_the_tool(rows, state)
+    on_tool = on_the_tool(rows, state)
     apart = float(np.linalg.norm(on_tool[second].mean(axis=0) - on_tool[~second].mean(axis=0)))
     statement = f"the points sit at two places on the tool, {1e3 * apart:.3g} mm apart: {1e3 * left:.3g} mm are left so"
     fewer = second if 2 * second.sum() <= len(second) else ~second
@@ -70,12 +69,6 @@ def two_reflectors(arm: Arm, table: Recordings, misfit: float) -> list[Suspicion
     if np.count_nonzero(np.diff(second.astype(int))) == 1:  # from a row on: a diagnosis asks that of the tool
         return [Suspicion("hint", statement, f"{cure} Or did the tool move then?", TWO_REFLECTORS)]
     return [Suspicion("problem", statement, cure, TWO_REFLECTORS)]
-
-
-def _on_the_tool(rows: SetUp, state: State) -> Array:
-    """(N, 3) m where each measured point is in the tool's frame, by base and tools as they are placed."""
-    turned = np.einsum("nji,nj->ni", state.rotations[rows.base], rows.residuals(state))
-    return np.asarray(np.einsum("nji,nj->ni", rows.nominal_frames.tool_rotation, turned) + state.tools[rows.tool])
 
 
 def _halved(points: Array) -> NDArray[np.bool_]:

@@ -155,14 +155,15 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     from armscope.check.suspicion import BESIDE
     from armscope.core.numerals import rounded
     from armscope.verdict.payload_place import of_payloads
-    from armscope.verdict.schema import TOOL_AS_STATED
+    from armscope.verdict.schema import MISLABELLED, TOOL_AS_STATED
 
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
     yield from (each.text for each in verdict.notices if each.kind in ("check", TOOL_AS_STATED, *BESIDE))
     yield from (each.text for each in obstacle)
     if any(each.kind == "fewer rows than parameters" for each in obstacle):
         yield f"of these runs and targets a diagnosis needs {rows_needed(arm, table)} rows at least."
-    if suspects := verdict.suspects:
+    yield from (each.text for each in verdict.notices if each.kind == MISLABELLED)
+    if suspects := [each for each in verdict.suspects if not each.reads_as]:
         rows = [f"{f'{row.run}: ' if row.run else ''}{row.id} ({rounded(row.residual_mm)} mm off)" for row in suspects]
         more = f", ... ({len(rows)} in all: suspects.csv)" if len(rows) > MOST_NAMED else ""
         yield f"rows that look like bad shots, and count for little: {', '.join(rows[:MOST_NAMED])}{more}"

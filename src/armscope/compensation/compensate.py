@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from armscope.compensation.black_box import ErrorModel, domain_inputs
 from armscope.compensation.forward import BlackBoxArm, Forward, PhysicalArm
+from armscope.compensation.known_range import beyond_time
 from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import (
     Identified,
-    beyond_time,
     missing_context,
     with_empty_context,
     with_measured_tool,
@@ -23,6 +23,7 @@ from armscope.compensation.task import Options, PathTask, refuse
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.core.words import enumerated
+from armscope.physics.instrument import INSTRUMENT_SCALE
 from armscope.physics.loose_target import HOLDER_SAG, LOOSE_TARGET
 from armscope.physics.model import FittedModel
 from armscope.physics.payload_change import PAYLOAD_CHANGE, carrying_as_stated
@@ -108,7 +109,8 @@ def compensate_physical(
     rows, refused, notes = _named(model, path.table)
     for column, missing in missing_context(model, identified, rows).items():
         refuse(refused, missing, f"no {column}, which the model follows")
-    refuse(refused, beyond_time(model, identified, rows), "outside the identified range: time_s, which a drift follows")
+    late = "outside the identified range: time_s, which a drift or a curve follows"
+    refuse(refused, beyond_time(model, identified, rows), late)
     rows = with_empty_context(rows)
 
     def forward(nominal: Array) -> tuple[Forward, str]:
@@ -164,12 +166,14 @@ def _of_untold_loads(model: FittedModel) -> tuple[str, ...]:
 
 
 def _of_the_target(model: FittedModel) -> tuple[str, ...]:
-    """What moves the target on the tool moves a tool in its place only where that is held as the target was."""
+    """What the instrument reads wrongly moves no arm, and what moves the target only a tool that is held as it was."""
     held = {
         LOOSE_TARGET: "the target is loose: these commands bring it where it was meant to go, a tool that is not loose "
         "they do not; --frame base leaves that out",
         HOLDER_SAG: "what held the target bends under its own weight: these commands are right for a tool that bends "
         "as much, and off by that for one that does not",
+        INSTRUMENT_SCALE: "the model has the instrument's scale off: what else it holds may be the instrument's, too, "
+        "and moves a good arm wrongly; check it first (a scale bar), measure and diagnose again",
     }
     effects = [part.placed.effect for part in model.parts]
     return tuple(note for effect, note in held.items() if effect in effects)

@@ -39,6 +39,27 @@ class CommandSearch(Constants):
         "judgement: errors of millimetres never ask for more, unless the arm is close to a pole",
         unit="rad",
     )
+    postures: int = constant(
+        200,
+        "in which it is tried where an arm can be moved at all",
+        "judgement: far more than it has axes",
+        unit="postures",
+    )
+    along_an_axis: float = constant(
+        1e-3, "of a direction's square that may lie beside an axis that it is named by", "judgement: two degrees"
+    )
+    told_m: float = constant(
+        1e-6,
+        "left where an arm can't be moved, from which on it is told",
+        "judgement: no instrument sees less",
+        unit="m",
+    )
+    out_of_plane_m: float = constant(
+        0.01,
+        "off the plane of an arm that can't be led out of it, beyond which a point is none of its own",
+        "judgement: arms miss by millimetres",
+        unit="m",
+    )
     rows_at_a_time: int = constant(
         5_000,
         "whose frames, Jacobians and steps are held",

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.constants import COMMANDS
 from armscope.compensation.forward import Forward, Rows, ToolPose
+from armscope.compensation.reachable import Reachable
 from armscope.core.parallel import each_piece
 from armscope.core.types import Array, Indices
 from armscope.robot.constants import SEARCH
@@ -28,24 +29,29 @@ class Wanted:
     Attributes:
         points: (N, 3) m.
         rotations: (N, 3, 3) of the last frame, or None where the orientation is free.
+        reachable: directions in which the arm can be led; None for all.
     """
 
     points: Array
     rotations: Array | None = None
+    reachable: Reachable | None = None
 
     def __len__(self) -> int:
         return len(self.points)
 
     def rows(self, which: Rows | NDArray[np.bool_]) -> Wanted:
         """Some of the rows."""
-        return Wanted(self.points[which], None if self.rotations is None else self.rotations[which])
+        rotations = None if self.rotations is None else self.rotations[which]
+        return Wanted(self.points[which], rotations, self.reachable)
 
     def gap(self, pose: ToolPose, lever: float) -> Array:
-        """(N, 3 or 6) what is missing: displacement (m) and turn times ``lever`` (m)."""
+        """(N, 3 or 6) what is missing: displacement (m) and turn times ``lever`` (m); fewer where it can't be had."""
         gap = self.points - pose.points
-        if self.rotations is None:
-            return gap
-        return np.concatenate([gap, lever * self.turn(pose)], axis=1)
+        turn = None if self.rotations is None else lever * self.turn(pose)
+        if self.reachable is not None:
+            gap = gap @ self.reachable.shifts.T
+            turn = None if turn is None else turn @ self.reachable.turns.T
+        return gap if turn is None else np.concatenate([gap, turn], axis=1)
 
     def turn(self, pose: ToolPose) -> Array:
         """(N, 3) the rotation vector that is missing, rad, base axes; NaN where the orientation is free."""
@@ -55,9 +61,10 @@ class Wanted:
 
     def jacobian(self, pose: ToolPose, lever: float) -> Array:
         """(N, 3 or 6, m) how the gap closes by unit turns of the motors, m/rad."""
-        if self.rotations is None:
-            return pose.jacobian[:, :3]
-        return np.asarray(pose.jacobian * np.repeat([1.0, lever], 3)[None, :, None])
+        moved, turned = pose.jacobian[:, :3], lever * pose.jacobian[:, 3:]
+        if self.reachable is not None:
+            moved, turned = self.reachable.shifts @ moved, self.reachable.turns @ turned
+        return moved if self.rotations is None else np.concatenate([moved, turned], axis=1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -54,7 +54,7 @@ def nominal_branch(
 def _point_by_point(
     arm: Arm, wanted: Wanted, start: Array, held: Mapping[int, float], largest_step: float
 ) -> PathSolution:
-    if wanted.rotations is None:
+    if wanted.rotations is None and wanted.reachable is None:
         return follow_path(arm, wanted.points, start, held, largest_step)
     return _follow_poses(arm, wanted, start, held, largest_step)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.compensation.constants import MOMENTS, RANGE
+from armscope.compensation.constants import MOMENTS
 from armscope.compensation.domain import Domain
 from armscope.compensation.file_contents import IdentifiedContent
 from armscope.core.files import read_json, write_json
@@ -17,6 +17,7 @@ from armscope.core.inputs import InputError, mapping, validate
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.physics.drivers import KINDS, kinds_in
+from armscope.physics.effect import Part
 from armscope.physics.frames import TOOL_FRAME, tool_key
 from armscope.physics.model import FittedModel
 from armscope.physics.recorded_drivers import COLUMNS
@@ -153,8 +154,12 @@ def identified_beside(model: Path) -> Identified | None:
 
 def drivers_of(model: FittedModel) -> set[str]:
     """The kinds of drivers that a model's effects follow, nested ones included."""
-    products = [product for part in model.everything for term in part.placed.terms for product in term.products]
-    return {kind for product in products for kind in kinds_in(product.driver)}
+    return set().union(*map(kinds_of, model.everything))
+
+
+def kinds_of(part: Part) -> set[str]:
+    """The kinds of drivers that an effect follows, nested ones included."""
+    return {k for term in part.placed.terms for product in term.products for k in kinds_in(product.driver)}
 
 
 def missing_context(model: FittedModel, identified: Identified, rows: Recordings) -> dict[str, NDArray[np.bool_]]:
@@ -182,24 +187,6 @@ def missing_context(model: FittedModel, identified: Identified, rows: Recordings
         if field in needed and missing.any():
             lacks[column] = missing
     return lacks
-
-
-def beyond_time(model: FittedModel, identified: Identified, rows: Recordings) -> NDArray[np.bool_]:
-    """(N,) rows at times to which a drift of the model would have to be continued: a tenth beyond what was recorded.
-
-    Args:
-        model: of a diagnosis.
-        identified: what its recordings held.
-        rows: of the path.
-
-    Returns:
-        (N,) whether a row's time is beyond; all False where nothing drifts.
-    """
-    if "hours" not in drivers_of(model) or identified.time_s is None or rows.time is None:
-        return np.zeros(len(rows), dtype=bool)
-    first, last = identified.time_s
-    slack = RANGE.time * (last - first)
-    return np.asarray((rows.time < first - slack) | (rows.time > last + slack))
 
 
 def with_empty_context(rows: Recordings) -> Recordings:

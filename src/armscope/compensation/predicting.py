@@ -103,12 +103,18 @@ def predict_rows(
 
 
 def _by_model(fitted: FittedModel, rows: Recordings, identified: Identified | None, pose: bool) -> Found:
+    from armscope.compensation.known_range import beyond_recorded, held_in_time
+
     notes = _refuse_missing_context(fitted, rows, identified)
     notes += [
         f"run {run!r} is not in the model: its base is taken from run {list(fitted.bases)[-1]!r}"
         for run in fitted.unknown_runs(rows)
     ]
     notes += _of_now(fitted, rows)
+    if identified is not None:
+        rows_known, told = held_in_time(fitted, identified, rows)
+        notes += [*told, *beyond_recorded(fitted, identified, rows)]
+        rows = rows_known
     return predicted_points(fitted, rows), predict_orientation(fitted, rows) if pose else None, rows, notes
 
 

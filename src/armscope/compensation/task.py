@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from armscope.compensation.forward import Forward, NominalArm
 from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
 from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
+from armscope.compensation.reachable import Reachable, reachable_by
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
 from armscope.core.parallel import piece_by_piece
@@ -77,10 +78,11 @@ class PathTask:
         """Nominal branch, Newton's method on the real arm from there, every reason to refuse a row."""
         rows = np.arange(len(self.path))
         held = {} if self.options.pose else self._held()
-        wanted = self._wanted(refused)
+        free = np.array([motor not in held for motor in self._motors])
+        can = reachable_by(self.arm, free)
+        wanted = replace(self._wanted(refused), reachable=None if can.is_everywhere else can)
         nominal = self._nominal(wanted, held, refused)
         real, note = self.forward(nominal)
-        free = np.array([motor + 1 not in held for motor in range(self.arm.n_motors)])
         uncorrected, uncorrected_turn, residual_turn = np.full((3, len(rows)), np.nan)
         commands, predicted = np.full_like(nominal, np.nan), np.full((len(rows), 3), np.nan)
         iterations = 0
@@ -101,12 +103,14 @@ class PathTask:
                 self._refuse_unsolved(refused, at, found.solution, moved, found.pole)
         outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
+        beside = can.left_out_of(wanted.points - predicted)
+        refuse(
+            refused, beside > COMMANDS.out_of_plane_m, "the arm can't be moved there: no motor leads out of its plane"
+        )
+        left_out = can.told(beside[refused == ""], self.options.pose)
         for values in (commands, predicted, residual, residual_turn):
             values[refused != ""] = np.nan
-        ok = np.flatnonzero(refused == "")
-        points, turns = np.full((len(rows), 3), np.nan), np.full((len(rows), 3, 3), np.nan)
-        for at in (ok[piece] for piece in row_pieces(len(ok))):
-            points[at], turns[at] = tool_frames(self.stated, commands[at])
+        points, turns = self._shown(commands, np.flatnonzero(refused == ""))
         return Compensated(
             self.stated,
             self.path.table.id,
@@ -127,9 +131,24 @@ class PathTask:
             self.options.frame,
             self.options.pose,
             iterations,
-            (note,) if note else (),
+            tuple(filter(None, (note, left_out))),
             context=self.path.context,
         )
+
+    def _left_out(self, can: Reachable, gap: Array, refused: NDArray[np.object_]) -> str:
+        """What commands leave of gaps (N, 3) where the arm can't be moved; far off its plane a row is refused."""
+        beside = can.left_out_of(gap)
+        refuse(
+            refused, beside > COMMANDS.out_of_plane_m, "the arm can't be moved there: no motor leads out of its plane"
+        )
+        return can.told(beside[refused == ""], self.options.pose)
+
+    def _shown(self, commands: Array, ok: Indices) -> tuple[Array, Array]:
+        """Points (N, 3) and orientations (N, 3, 3) that the controller shows under commands; NaN but for some rows."""
+        points, turns = np.full((len(commands), 3), np.nan), np.full((len(commands), 3, 3), np.nan)
+        for at in (ok[piece] for piece in row_pieces(len(ok))):
+            points[at], turns[at] = tool_frames(self.stated, commands[at])
+        return points, turns
 
     def _held(self) -> dict[int, float]:
         """Motors that stood still in the identification data, where enough others can move the tool point."""

@@ -22,6 +22,7 @@ from armscope.diagnosis.summary.effects import (
     with_weight,
 )
 from armscope.diagnosis.summary.homogeneity import subset_consistency
+from armscope.diagnosis.summary.mislabelled import told_of_labels
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stated
@@ -102,7 +103,7 @@ def judge(
     tool_mm = rounding_mm(state)
     carefully = [*weights_told, *told_of_rounding(state, tool_mm), *left_over, *rows_left_out(state, held_out)]
     draft = Diagnosis(
-        **told_of_rows(state),
+        **(of_rows := told_of_rows(state)),
         answer=answer,
         headline="",
         mismatch=mismatch,
@@ -117,7 +118,7 @@ def judge(
         held_out=held_out,
         waterfall=waterfall,
         next_poses=next_poses(state, basis.rivals, rng),
-        notices=(*state.notices, *_carefully(state), *carefully),
+        notices=(*state.notices, *_carefully(state), *carefully, *told_of_labels(of_rows["suspects"])),
     )
     verdict = with_importance(draft, with_weight)
     return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))

@@ -134,6 +134,11 @@ def _spline(scene: LoadedArm, source: Driver, centre: float, width: float) -> Ar
     return cubic_spline(scene.driver(source), centre, width)
 
 
+def _held(scene: LoadedArm, source: Driver, low: float, high: float) -> Array:
+    """A driver as it is in a range where what follows it is known, and the nearest end of that range beyond it."""
+    return np.clip(scene.driver(source), low, high)
+
+
 def cubic_spline(at: Array, centre: float, width: float) -> Array:
     """Cubic B-spline: a smooth bump about ``centre``, zero beyond two widths.
 
@@ -167,6 +172,7 @@ KINDS: dict[str, DriverKind] = {
     "side across": DriverKind(_side_across),
     "lost motion": DriverKind(_lost_motion, needs="approach"),
     "spline": DriverKind(_spline),
+    "held": DriverKind(_held),
     **LOADS,
     **RECORDED,
     **BARS,

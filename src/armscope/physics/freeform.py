@@ -23,6 +23,8 @@ from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
+CONTEXT = ("time", "temperature")
+"""The variants of curves of what is recorded beside the angles; columns of the same name."""
 REST_OF_LOAD = "rest of load"
 """The variant of a curve of load beside the line that it mostly is."""
 
@@ -56,22 +58,40 @@ def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
 
 
 def held(curve: Placed, recordings: Recordings) -> Placed:
-    """A free curve of a joint's own angle, held at its end values beyond the range on which it was learned.
+    """A free curve of a joint's own angle, time or temperature, held at its end values beyond where it was learned.
 
-    There its waves would only repeat, and its trend run on. Single rows far out (a home pose) are no part of the range.
+    There its waves would only repeat, its bumps end, and its trend run on: a joint that had jumped to and fro was
+    foretold to go on. Single rows far out (a home pose) are no part of the range.
     """
-    if not follows_own_angle(curve):
+    if follows_own_angle(curve):
+        ends = _range(recordings.motor_angles[:, Location.of(curve.location).number - 1])
+
+        def bounded(driver: Driver) -> Driver:
+            return driver if driver == ONE else Driver(driver.kind, (*driver.arguments, *ends))
+
+    elif curve.parametrisation == "curve" and curve.variant in CONTEXT:
+        values = getattr(recordings, curve.variant)
+        known = values[~np.isnan(values)]
+
+        def bounded(driver: Driver) -> Driver:
+            return driver if driver == ONE else _bounded_within(driver, known)
+
+    else:
         return curve
-    low, high = _range(recordings.motor_angles[:, Location.of(curve.location).number - 1])
 
-    def bounded(product: Product) -> Product:
-        driver = product.driver
-        return (
-            product if driver == ONE else replace(product, driver=Driver(driver.kind, (*driver.arguments, low, high)))
-        )
+    def of_products(products: tuple[Product, ...]) -> tuple[Product, ...]:
+        return tuple(replace(product, driver=bounded(product.driver)) for product in products)
 
-    terms = tuple(replace(t, products=tuple(bounded(product) for product in t.products)) for t in curve.terms)
-    return replace(curve, terms=terms)
+    return replace(curve, terms=tuple(replace(each, products=of_products(each.products)) for each in curve.terms))
+
+
+def _bounded_within(driver: Driver, known: Array) -> Driver:
+    """A driver that follows time or temperature, or a bump of it, held at the ends of the values (N,) of its column."""
+    if driver.kind == "spline" and isinstance(driver.arguments[0], Driver):
+        return replace(driver, arguments=(_bounded_within(driver.arguments[0], known), *driver.arguments[1:]))
+    start = driver.number(0) if driver.kind == "hours" else REFERENCE_TEMPERATURE_C
+    unit = SECONDS_PER_HOUR if driver.kind == "hours" else 1.0
+    return Driver("held", (driver, float((known.min() - start) / unit), float((known.max() - start) / unit)))
 
 
 def about_its_mean(curve: Part, scene: Scene) -> tuple[Part, float]:

@@ -15,6 +15,12 @@ from armscope.robot import Arm
 
 WARMTH = Driver("warmth")
 """Kelvin above 20 C."""
+KEPT_WARM = (
+    "It counts from 20 C: an arm that is only warmed up before work misses by all of it, and to keep it at one "
+    "temperature helps only with a calibration at that temperature."
+)
+"""What is said beside every thermal cure: an arm that was only warmed up before work missed by more than a cold one."""
+BY_MODEL = "let `armscope compensate` compute the commands (`temperature_c` in the path)"
 
 
 def _place_links(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -70,11 +76,11 @@ THERMAL_EXPANSION = Effect(
     "The link grows with temperature (steel 11-12, aluminium 23-24 millionths per K).",
     "Measure one pose cold and warm, with a thermometer on the link.",
     Cure(
-        "Warm up before measuring,",
-        otherwise="or correct the link's length in the controller's model: length = stated length x "
-        "(1 + coefficient x (temperature - 20 C)); its inverse kinematics then reaches the wanted point.",
+        "Scale the link in the controller's model with its temperature at work.",
+        otherwise="Its length = stated length x (1 + coefficient x (temperature - 20 C)), for a and d of its row "
+        f"alike; its inverse kinematics then reaches the wanted point. Or {BY_MODEL}. {KEPT_WARM}",
         change="temperature",
-        instruction="Warm the arm up before work, or scale {location} with its temperature.",
+        instruction="Scale {location} in the controller's model with its temperature at work.",
     ),
     clauses=(
         below_zero("coefficient", "{location} shrinks by {coefficient} as it gets warmer"),
@@ -105,11 +111,12 @@ THERMAL_BOW = Effect(
     "The link bows as it gets warmer: one side is warmer than the other, or of another material.",
     "Put a thermometer on both sides of the link, and measure one pose cold and warm.",
     Cure(
-        "Warm up before measuring, and keep what warms one side (a motor, a draught, the sun) away,",
-        otherwise="or let the corrected model's inverse kinematics compute the commands (the link's end tilted by tilt "
-        "x (temperature - 20 C); `armscope compensate`).",
+        "Tilt the link's end in the controller's model with its temperature at work.",
+        otherwise="Its turn = tilt_x x (temperature - 20 C) about its x, tilt_y x (temperature - 20 C) about its y; "
+        f"the inverse kinematics then reaches the wanted point. Or {BY_MODEL}. Keep away what warms one side (a motor, "
+        f"a draught, the sun), and measure again. {KEPT_WARM}",
         change="temperature",
-        instruction="Warm the arm up before work, and find what warms one side of {location}.",
+        instruction="Tilt the end of {location} in the controller's model with its temperature at work.",
     ),
     clauses=(
         clear_ones("{location} bows {} as it gets warmer", tilt_x="about its x", tilt_y="about its y"),
@@ -143,11 +150,11 @@ THERMAL_ZERO = Effect(
     "The joint's zero moves as it gets warmer: what holds its encoder, its gear or its belt grows.",
     "Bring the joint to its calibration mark cold and warm, with a thermometer on its housing.",
     command(
-        "Warm up before measuring,",
-        otherwise="or compensate for it in the command: commanded = wanted - drift x (temperature - 20 C) - offset "
-        "(none where none is told).",
+        "Compensate for it in the command, with the temperature at work.",
+        otherwise="That is, commanded = wanted - drift x (temperature - 20 C) - offset (no offset where none is told). "
+        f"{KEPT_WARM}",
         change="temperature",
-        instruction="Warm the arm up before work, or {correction}.",
+        instruction="With the temperature at work, {correction}.",
     ),
     clauses=(
         "the zero of {location} moves by {drift:+}, and is off by {offset:+} at 20 °C",

@@ -35,7 +35,7 @@ LINK_WANDER = Effect(
     nowhere,
     "Links warm up and cool down a little in the course of the recording, whatever a thermometer in the hall says.",
     "Measure one pose now and then.",
-    Cure("Let the arm warm up before measuring."),
+    Cure("Record `temperature_c` beside the poses, best the link's own, and diagnose again."),
 )
 """Allowed for, never named: what follows the recorded temperature is thermal expansion."""
 

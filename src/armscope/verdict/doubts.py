@@ -14,6 +14,13 @@ from armscope.verdict.wording import effect_in_words, plain
 OPEN = "to be settled"
 """What is changed about a cause that is not settled: nothing yet."""
 MEANWHILE = "Until then change nothing for it: commands by the whole model (armscope compensate) hold whichever it is."
+MAY_BE_READ_SO = (
+    "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "
+    "instrument's own error, and such commands would move a good arm wrongly."
+)
+SIZE_OPEN = "Confirm it first: these rows do not determine its size (each interval holds zero)."
+NOT_THE_ARMS = ("instrument", "drift")
+"""Families of what is read wrongly, or stood elsewhere: the instrument, its target, the set-up."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +31,15 @@ class Doubt:
         what, place: kind and region, no more.
         confirm: how each reading shows itself.
         instruction: what comes before the cure of the best reading.
+        meanwhile: what to do until then: commands by the whole model hold whichever of the arm's own causes it is, but
+            not where one is none of the arm's.
     """
 
     what: str
     place: str
     confirm: str
     instruction: str
+    meanwhile: str
 
 
 def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
@@ -51,11 +61,15 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     how = " (measure the poses in next_poses.csv)" if asked else " (by the tests at the arm)" if rivals else ""
     places = list(dict.fromkeys(each.location for each in readings))
     _, _, region = effect.title.partition(", ")
+    first = f"First find out which it is: {which}{how}."
+    if effect.size_open:
+        first = f"{SIZE_OPEN} {first}" if rivals else SIZE_OPEN
     return Doubt(
         what=kind_and_place(effect),
         place=enumerated(places, "or") if _either(effect) or not region else region,
         confirm=_shown_by(effect, rivals) if rivals else effect.confirm,
-        instruction=f"First find out which it is: {which}{how}. If {exact_phrase(effect)}: ",
+        instruction=f"{first} If {exact_phrase(effect)}: ",
+        meanwhile=MAY_BE_READ_SO if any(each.family in NOT_THE_ARMS for each in readings) else MEANWHILE,
     )
 
 

@@ -20,6 +20,8 @@ INDISTINGUISHABLE_NATS = 3.0
 """Evidence of 20 to 1: two readings closer than this are not told apart."""
 INTERVAL = 1.959964
 """Half width of a 95 % interval in standard errors."""
+NO_SIZE = ("phase", "direction", "per_turn", "time", "row")
+"""Parameters that say where or when, not how much."""
 UNKNOWN = "unknown"
 """The family of what no known physics explains."""
 
@@ -141,6 +143,12 @@ class FoundEffect:
     def __post_init__(self) -> None:
         if self.curve is not None and not self.description:
             object.__setattr__(self, "description", self.curve.description)
+
+    @property
+    def size_open(self) -> bool:
+        """Whether these rows do not tell any of its sizes from zero: each interval holds it."""
+        sizes = [p for p in self.parameters if p.name not in NO_SIZE and p.stderr > 0]
+        return bool(sizes) and all(low <= 0 <= high for low, high in (p.interval for p in sizes))
 
     @property
     def rarely_chosen(self) -> bool:

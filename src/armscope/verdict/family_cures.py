@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from armscope.physics.backgrounds import THERMAL
+from armscope.physics.thermal import BY_MODEL, KEPT_WARM
 from armscope.verdict.effects import FoundEffect
 
 _CURES = {
@@ -14,8 +16,8 @@ _CURES = {
     "deflection in the commands (`armscope compensate`).",
     "transmission": "Store the fitted waves, ratios and play of the joints named as corrections, or compensate for "
     "them in the commands (`armscope compensate`); replace the worst gear.",
-    "thermal": "Warm the arm up before work and measure at the temperature of work; or compensate for the growth in "
-    "the commands, at the temperature of the day (`armscope compensate`).",
+    "thermal": "Compensate for each of what is named by its own formula, with the temperature at work and counted from "
+    f"20 C; or {BY_MODEL}. {KEPT_WARM}",
     "drift": "Fasten the instrument, the base and the tool, let them settle, and measure again: what is fitted here "
     "describes this recording, not the arm.",
     "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "
@@ -34,11 +36,18 @@ _WITHOUT_A_NAME = {
 """Where a family has small errors everywhere and no member: nobody can store hundreds of waves that no page prints."""
 
 WARMING = (
-    "Let the arm warm up before you measure and before work; record `temperature_c` (best the link's own) beside the "
-    "poses and diagnose again: then its growth is told in micrometres per metre and kelvin. If the link is as cold as "
-    "it was, see whether something works loose on it."
+    "Record `temperature_c` (best the link's own) beside the poses and diagnose again: then its growth is told in "
+    "millionths per kelvin, and can be compensated for. Without a thermometer: let the arm warm up, calibrate it warm, "
+    "and work with it as warm; one without the other makes it worse. If the link is as cold as it was, see whether "
+    "something works loose on it."
 )
 """What is done about a link whose length changes slowly, where no temperature says why."""
+SCALE_ALL = (
+    "Scale all links in the controller's model with the arm's temperature at work (a and d of every D-H row, or the "
+    "origins of a URDF):"
+)
+ALSO_NAMED = "What is named besides comes on top, each by its own formula."
+CONFIRM_FIRST = "Confirm it first: these rows do not determine its size."
 OVER_TIME = "What follows the time moved meanwhile: fasten it and measure again; its curve corrects nothing later."
 
 
@@ -47,7 +56,9 @@ def warms(family: str, worst: str) -> bool:
     return family == "drift" and worst.startswith("link")
 
 
-def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool, worst: str = "") -> str:
+def cure_of_family(
+    family: str, members: Sequence[FoundEffect], everywhere: bool, worst: str = "", growth: str = ""
+) -> str:
     """What to do about a cause: its only effect's cure, or what mends the whole family.
 
     Args:
@@ -55,15 +66,19 @@ def cure_of_family(family: str, members: Sequence[FoundEffect], everywhere: bool
         members: its effects.
         everywhere: whether small errors of the family in the whole arm belong to it.
         worst: where these do most; "" where nowhere stands out.
+        growth: by how much all links grow with temperature, as a formula (`armscope.verdict.growth`); "" for not.
 
     Returns:
         A sentence or two.
     """
     if len(members) == 1 and not everywhere:
-        return members[0].cure
+        return f"{CONFIRM_FIRST} {members[0].cure}" if members[0].size_open else members[0].cure
     if warms(family, worst) and not members:
         return WARMING
     if not members and family in _WITHOUT_A_NAME:
         return _WITHOUT_A_NAME[family]
+    if growth and everywhere and family == THERMAL:
+        each_other = f" {ALSO_NAMED}" if members else ""
+        return f"{SCALE_ALL} {growth} Or {BY_MODEL}.{each_other} {KEPT_WARM}"
     mend = _CURES.get(family, members[0].cure if members else "")
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

@@ -35,7 +35,9 @@ def write_verdict(verdict: Diagnosis, folder: Path | str) -> None:
     write_json(folder / VERDICT, verdict.to_json())
     save_model(folder / "model.yaml", verdict.model)
     write_table(folder / "predicted.csv", predicted_table(verdict))
-    suspects = pd.DataFrame([vars(row) for row in verdict.suspects], columns=["id", "run", "residual_mm", "weight"])
+    suspects = pd.DataFrame(
+        [vars(row) for row in verdict.suspects], columns=["id", "run", "residual_mm", "weight", "reads_as"]
+    )
     write_table(folder / "suspects.csv", suspects)
     if verdict.next_poses is not None:
         write_table(folder / "next_poses.csv", next_poses_table(verdict))

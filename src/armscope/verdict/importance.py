@@ -25,6 +25,7 @@ from armscope.verdict.contributions import Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.growth import growth_in_words
 from armscope.verdict.promise import promised
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.sentences import cause_in_words, headline
@@ -92,11 +93,12 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
 def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
     """The causes with their members in order, the largest share first."""
     small = {each.family: each for each in verdict.background_families}
-    causes = [_retold(cause, verdict.effects, small.get(cause.family)) for cause in verdict.causes]
+    growth = growth_in_words(verdict.model.background)
+    causes = [_retold(cause, verdict.effects, small.get(cause.family), growth) for cause in verdict.causes]
     return tuple(sorted(causes, key=lambda cause: -cause.share))
 
 
-def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None) -> Cause:
+def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None, growth: str) -> Cause:
     members = [effect for effect in effects if effect.as_member in cause.members]
     everywhere = small if cause.everywhere else None
     return replace(
@@ -105,7 +107,7 @@ def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | No
         minor=all(effect.minor for effect in members) and not cause.everywhere,
         share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
         text=cause_in_words(cause.family, members, everywhere),
-        cure=cure_of_family(cause.family, members, cause.everywhere, everywhere.worst if everywhere else ""),
+        cure=cure_of_family(cause.family, members, cause.everywhere, everywhere.worst if everywhere else "", growth),
     )
 
 

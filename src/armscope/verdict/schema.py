@@ -22,6 +22,9 @@ ROWS_LEFT_OUT = "rows left out"
 NO_BAD_SHOTS = "rows that are no bad shots"
 """The same where they are too many to be bad shots: what is promised is then promised with them."""
 
+MISLABELLED = "targets"
+"""The kind of a notice that rows fit another target than the one whose name they carry."""
+
 
 @dataclass(frozen=True)
 class Unexplained:
@@ -141,12 +144,14 @@ class SuspectRow:
         run: in which it was recorded.
         residual_mm: what the model leaves of it, length.
         weight: with which it counted, 0 ... 1.
+        reads_as: the other target of the table that its point fits within the noise; "" for none.
     """
 
     id: str
     run: str
     residual_mm: Number
     weight: Number
+    reads_as: str = ""
 
 
 @dataclass(frozen=True)

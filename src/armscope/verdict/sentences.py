@@ -275,13 +275,16 @@ def _vague(effect: FoundEffect) -> str:
     """A region or a family, with the best single reading."""
     if " or " in effect.title:
         return kind_and_place(effect)
-    return f"{kind_and_place(effect)}, most likely {effect_in_words(effect.effect, effect.location)}"
+    open_size = ", of a size that these rows do not determine" if effect.size_open else ""
+    return f"{kind_and_place(effect)}, most likely {effect_in_words(effect.effect, effect.location)}{open_size}"
 
 
 def kind_and_place(effect: FoundEffect) -> str:
     """What an unsettled cause is for sure, as a clause: one of two, or a kind of error in a region."""
     if " or " in effect.title:
         return f"either {plain(effect.title)}"
+    if effect.location == "payload":
+        return "the payload may not be as stated"
     kinds = {
         "elastic": "something gives way under load",
         "instrument": "something is measured wrong",

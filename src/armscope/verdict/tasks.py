@@ -20,7 +20,7 @@ from armscope.robot import Arm
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
-from armscope.verdict.doubts import MEANWHILE, OPEN, Doubt, doubt_of, unless_confirmed
+from armscope.verdict.doubts import OPEN, Doubt, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.filenames import CURVES
@@ -145,7 +145,7 @@ def _in_doubt(task: Task, doubt: Doubt) -> Task:
         change=OPEN,
         motion="",
         instruction=doubt.instruction + task.instruction,
-        cure=MEANWHILE,
+        cure=doubt.meanwhile,
         confirm=doubt.confirm,
     )
 
@@ -167,7 +167,7 @@ def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
     )
 
 
-FORMULA = re.compile(r"(?:commanded|length|mass) = (.*)", re.DOTALL)
+FORMULA = re.compile(r"(?:commanded|length|mass|turn) = (.*)", re.DOTALL)
 """What a rule's numbers are named in; a row's and a zero's stand in their instructions."""
 BEYOND_THE_RULE = (
     " The mass moments behind this number were fitted, too, and stand in no rule: the error expected is that of the "

@@ -16,14 +16,14 @@ from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.entered_together import CALIBRATION, Job, calibrated_last, in_one_step, moved_by, pays_together
 from armscope.verdict.family_cures import cure_of_family, warms
+from armscope.verdict.growth import growth_in_words
 from armscope.verdict.importance import minor_and_told
+from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
 
-ALL_AT_ONCE = {
-    GEOMETRIC: CALIBRATION, ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
-    THERMAL: "temperature",
-}  # fmt: skip
+ALL_AT_ONCE = {GEOMETRIC: CALIBRATION, ELASTIC: "elastic model", TRANSMISSION: "correction table", DRIFT: "fastening",
+               THERMAL: "temperature"}  # fmt: skip
 """What is changed for the small errors of a family in all joints and links."""
 OWN_FIT = (
     " The expected error is that of the model fitted here; armscope calibrate fits zeros and rows afresh, and reports "
@@ -58,15 +58,19 @@ class WorkOrder:
             only after that (minor effects, too, where it is much), what pays only together as one step, and corrected
             commands for what is left.
         besides: in words, causes that leave the error as it is in their turn, and what to do about them.
+        instrument_first: whether the instrument is to be settled before commands are corrected.
     """
 
     tasks: tuple[Task, ...]
     besides: tuple[str, ...]
+    instrument_first: bool = False
 
     @property
     def caution(self) -> str:
         """What must not be done together; "" where there is one step, or none that corrects commands by the model."""
         by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
+        if by_model and self.instrument_first:
+            return SETTLE_FIRST
         return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
 
     @property
@@ -107,14 +111,16 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         return poses is not None and poses.settle and poses.ask_about(effect)
 
     def jobs(some: Sequence[Repair]) -> list[Job]:
-        return [(task_of(scene, each, each.effects[0], asked(each.effects[0])), each.moved) for each in some]
+        tasks = [task_of(scene, each, each.effects[0], asked(each.effects[0])) for each in some]
+        return [(beside_the_instrument(task, verdict), each.moved) for task, each in zip(tasks, some, strict=True)]
 
     told, single = _told_together(verdict, worth.single)
     together = [_as_one(cause, members, jobs(members)) for cause, members in told]
     major, minor = jobs(worth.causes), jobs(single)
     repairs = [*major, *together]
     worst = {each.family: each.worst for each in verdict.background_families if each.present and each.family in SMALL}
-    small = [(_everywhere(family, worst[family]), moved) for family, moved in worth.small.items() if family in worst]
+    growth = growth_in_words(verdict.model.background)
+    small = [(_everywhere(each, worst[each], growth), moved) for each, moved in worth.small.items() if each in worst]
     before = rms(worth.before)
     alone = {id(task): rms(worth.before - moved) for task, moved in (*repairs, *minor, *small)}
     each_pays = [job for job in repairs if alone[id(job[0])] < before]
@@ -151,7 +157,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         done.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
-    return WorkOrder(tuple(done), (*lost, *(f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)))
+    waiting_on = (f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)
+    return WorkOrder(tuple(done), (*lost, *waiting_on), instrument_is_open(verdict))
 
 
 def _told_together(
@@ -277,15 +284,16 @@ def _calibrating(calibration: Job, geometric: Sequence[Job]) -> Job:
     return replace(task, instruction=instruction, members=members), sum((each for _, each in geometric), moved)
 
 
-def _everywhere(family: str, worst: str) -> Task:
+def _everywhere(family: str, worst: str, growth: str) -> Task:
     """What takes out the small errors of a family in all joints and links at once."""
+    cure = cure_of_family(family, (), True, worst, growth).replace("`", "")
     warming, usual = warms(family, worst), "in any session" if family == DRIFT else "any arm has"
     return Task(
         what=capitalised(GROWS.format(worst) if warming else f"{SMALL[family]}, as {usual}"),
         place=worst if warming else "set-up" if family == DRIFT else "whole arm",
         change="warm-up" if warming else ALL_AT_ONCE[family],
         motion="",
-        instruction=cure_of_family(family, (), True, worst).replace("`", "") + (OWN_FIT if family == GEOMETRIC else ""),
+        instruction=cure + (OWN_FIT if family == GEOMETRIC else ""),
         cure="",
         confirm=AFTER_REPAIRS,
         family=family,

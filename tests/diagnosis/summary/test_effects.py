@@ -10,13 +10,17 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.diagnosis.summary.effects import _with_drive_of_background
+from armscope.diagnosis.summary.effects import _as_sure_as_its_size, _with_drive_of_background
 from armscope.fitting.parameter_layout import parameter_layout
+from armscope.inference.model_space import Candidate
 from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.physics.frames import free_frames
 from armscope.physics.scene import Scene
+from armscope.verdict.effects import Parameter
+from armscope.verdict.sentences import headline
 from tests.physics.scenes import arm_named, full_table
+from tests.report import verdicts
 
 ARM, JOINT = arm_named("six-axis"), 2
 ROWS = full_table(ARM, 40, 3)
@@ -66,3 +70,18 @@ def test_a_drive_under_stated_masses_is_told_as_it_is() -> None:
     fit: Any = SimpleNamespace(layout=layout, model=SimpleNamespace(background=(drive,)))
     told, spread = _with_drive_of_background(fit, drive, 4e-14 * np.eye(len(layout.terms)))
     assert (told.item(), spread.item()) == (GIVE, pytest.approx(4e-14))
+
+
+@pytest.mark.parametrize(("spread", "sure"), [(0.1e-6, True), (1.5e-6, False)])
+def test_a_name_whose_size_may_be_zero_is_hedged_in_the_headline_and_confirmed_before_its_cure(
+    spread: float, sure: bool
+) -> None:
+    """A tool that bent was "replace the bearing of joint 6", of a size between -10 and +28 millionths."""
+    size = Parameter("compliance", "rad/(N m)", GIVE, spread)
+    found = verdicts.found("bearing_compliance", "joint 6", size)
+    candidate = Candidate("bearing_compliance", "joint 6", np.arange(1), np.ones(1), family="elastic", region="6")
+    told = _as_sure_as_its_size(found, candidate)
+    assert (told.named_as == "effect") == sure == (not told.size_open)
+    said = headline(verdicts.case(effects=(told,)).verdict)
+    assert ("most likely" in said) == ("of a size that these rows do not determine" in said) == (not sure)
+    assert ("The bearing of joint 6 tilts by" in said) == sure

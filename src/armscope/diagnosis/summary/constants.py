@@ -12,6 +12,14 @@ class TellingRules(Constants):
     """What is told of the effects and of the rows."""
 
     listed_suspects: int = constant(200, "at most", "judgement: nobody reads more", unit="rows")
+    reads_as_sigmas: float = constant(
+        3,
+        "times the noise of a distance within which a bad shot is a point of another target",
+        "derived: of three axes, one in 200,000 lies beyond",
+    )
+    labels_told: int = constant(
+        10, "at most, of rows with a wrong label", "judgement: suspects.csv has all", unit="rows"
+    )
     noise_excess: float = constant(
         1.15,
         "times the stated noise beyond which a residual is more than the noise",

@@ -24,7 +24,7 @@ def source_of(placed: Placed) -> Driver | None:
 def _root(driver: Driver) -> Driver | None:
     if driver.kind in ("sine", "cosine"):
         return Driver("angle", (driver.arguments[0],))
-    if driver.kind == "spline":
+    if driver.kind in ("spline", "held"):
         return _root(driver.arguments[0]) if isinstance(driver.arguments[0], Driver) else None
     return driver if KINDS[driver.kind].unit else None
 

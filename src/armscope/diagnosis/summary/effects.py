@@ -92,7 +92,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
             named_as, title = "region", f"{title} or {effect_in_words(rival.effect, rival.location)}"
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
-    return FoundEffect(
+    found = FoundEffect(
         effect=placed.name,
         location=placed.location,
         family=placed.family,
@@ -112,6 +112,19 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         confirm=confirm,
         cure=words.cure.words,
     )
+    return _as_sure_as_its_size(found, candidate)
+
+
+def _as_sure_as_its_size(found: FoundEffect, candidate: Candidate) -> FoundEffect:
+    """An effect; one whose sizes may all be zero is told by its kind and region only.
+
+    Two that stand in for each other are both worth their evidence, and neither may be there: a tool that bent under its
+    payload was a bearing to be replaced and a centre of mass by -24 +- 88 mm.
+    """
+    if found.named_as != "effect" or not found.size_open:
+        return found
+    named_as, title = specific_name(candidate, [candidate])
+    return replace(found, named_as=named_as, title=title)
 
 
 def _with_drive_of_background(fit: Refit, part: Part, covariance: Array) -> tuple[Array, Array]:

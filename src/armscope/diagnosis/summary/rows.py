@@ -12,6 +12,7 @@ from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.attribution_map import atlas
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.diagnosis.summary.mislabelled import reads_as
 from armscope.diagnosis.summary.untold_sides import as_recorded, left_without_untold, of_unknown_side, without_untold
 from armscope.fitting.refit import Refit
 from armscope.measurement.constants import WEIGHTS
@@ -120,7 +121,10 @@ def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
     rows = np.flatnonzero((relative < WEIGHTS.inlier_weight) & ~of_unknown_side(state))
     size = np.linalg.norm(fit.residuals, axis=1)
     worst = rows[np.argsort(-size[rows])][: TELLING.listed_suspects]
-    return tuple(SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r])) for r in worst)
+    return tuple(
+        SuspectRow(str(table.id[r]), str(table.run[r]), float(size[r]), float(relative[r]), target)
+        for r, target in zip(worst, reads_as(state, worst), strict=True)
+    )
 
 
 def _to_predict(model: FittedModel, recordings: Recordings) -> FittedModel:
