@@ -22,6 +22,7 @@ from armscope.diagnosis.summary.effects import (
     with_weight,
 )
 from armscope.diagnosis.summary.homogeneity import subset_consistency
+from armscope.diagnosis.summary.laws_of_one_joint import doubts_of_laws
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stated
@@ -126,15 +127,17 @@ def judge(
 def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> SummaryBasis:
     """What every effect is told from."""
     fit, best, search = state.fit, state.best, Search.on(state.problem)
+    rivals = judged_elsewhere(state, alternatives(search, best), rng.spawn(1)[0])
+    of_backgrounds, of_laws = doubts(search, best), doubts_of_laws(search, best, rivals)
     return SummaryBasis(
         state,
         search,
-        judged_elsewhere(state, alternatives(search, best), rng.spawn(1)[0]),
+        rivals,
         inclusion_frequency(state, resamples, rng),
         fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),
-        doubts(search, best),
+        {number: extra + of_backgrounds.get(number, 0.0) for number, extra in of_laws.items()},
     )
 
 

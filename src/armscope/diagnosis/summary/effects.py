@@ -13,11 +13,12 @@ from armscope.diagnosis.naming import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
+from armscope.diagnosis.summary.alternatives import listed, specific_name
 from armscope.diagnosis.summary.balancing_spring import balancing_spring
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.parameters import parameters, undetermined
+from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.refit import Refit
 from armscope.inference.model_space import Candidate
@@ -45,7 +46,7 @@ class SummaryBasis:
         scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
         model_error: what no effect explains, and what it does to the covariance.
-        background_doubt: by candidate, what backgrounds of other sizes add to the covariance of its values.
+        other_doubt: by candidate, what backgrounds of other sizes and other laws of its joint add to the covariance.
     """
 
     state: DiagnosisState
@@ -55,7 +56,7 @@ class SummaryBasis:
     scene: Scene
     equations: NormalEquations
     model_error: ModelError
-    background_doubt: Mapping[int, Array]
+    other_doubt: Mapping[int, Array]
 
 
 def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
@@ -77,7 +78,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     values, covariance = _with_drive_of_background(fit, part, basis.model_error.covariance)
-    covariance = covariance + basis.background_doubt.get(chosen.candidate, 0.0)
+    covariance = covariance + basis.other_doubt.get(chosen.candidate, 0.0)
     rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
