@@ -23,6 +23,7 @@ from armscope.diagnosis.summary.effects import (
 )
 from armscope.diagnosis.summary.homogeneity import subset_consistency
 from armscope.diagnosis.summary.laws_of_one_joint import doubts_of_laws
+from armscope.diagnosis.summary.leaning_gravity import told_by_gravity
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
 from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stated
@@ -138,6 +139,7 @@ def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> S
         _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),
         {number: extra + of_backgrounds.get(number, 0.0) for number, extra in of_laws.items()},
+        told_by_gravity(state),
     )
 
 
