@@ -73,7 +73,7 @@ def _mass_error(location: str, known: Sequence[Product], usual: float, heavier: 
     return Placed(STATED_MASSES, location, (share,), (usual,), "loads")
 
 
-def leaning_gravity(known: Sequence[Product]) -> tuple[Term, Term]:
+def gravity_that_leans(known: Sequence[Product]) -> tuple[Term, Term]:
     """Gravity that leans, about two axes across its stated direction: what gives way then gives way beside its load.
 
     Args:

@@ -23,7 +23,7 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import column_scales
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.effect import Part, Placed, Term
-from armscope.physics.loads import STATED_MASSES, givings, leaning_gravity
+from armscope.physics.loads import STATED_MASSES, givings, gravity_that_leans
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative
 
 LOOK_AT_THE_LEVEL = (
@@ -50,7 +50,7 @@ def told_by_gravity(state: DiagnosisState) -> dict[int, Alternative]:
     known = list(givings(fitted, state.recordings.torque is not None))
     if not asked or not known or not state.start.arm.has_masses:
         return {}
-    problem = _with_terms(state, leaning_gravity(known))
+    problem = _with_terms(state, gravity_that_leans(known))
     told = evaluate(problem, state.best.chosen, state.best.background, state.best.noise)
     found = {}
     for effect in asked:
