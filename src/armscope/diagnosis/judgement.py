@@ -58,7 +58,13 @@ from armscope.verdict.schema import (
     Unexplained,
     WaterfallStep,
 )
+from armscope.verdict.sentences import makes_worse
 
+NOT_YET = (
+    "Change nothing and correct no commands yet: the model with these names meets the rows worse than base and tool "
+    "alone. Confirm each by itself at the arm, or measure more rows."
+)
+"""In place of every cause's cure, where the whole model makes the error larger."""
 UNTESTED = HeldOut(float("nan"), float("nan"))
 """Where nothing was held out."""
 
@@ -122,7 +128,8 @@ def judge(
         notices=(*state.notices, *_carefully(state), *carefully),
     )
     verdict = with_importance(draft, with_weight)
-    return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
+    told = tuple(replace(c, cure=NOT_YET) for c in verdict.causes) if makes_worse(verdict) else verdict.causes
+    return replace(verdict, causes=told, waterfall=_with_weights(waterfall, named, verdict.effects))
 
 
 def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> SummaryBasis:
