@@ -60,6 +60,19 @@ def test_a_curve_of_the_angle_contains_what_follows_the_angle(space: EffectSpace
     assert {space.candidates[n].location for n in curve.special_cases} == {"joint 3"}
 
 
+@pytest.mark.parametrize(("joint", "as_one"), [("joint 4", True), ("joint 3", False)])
+def test_a_gear_may_be_off_its_centre_and_oval(space: EffectSpace, joint: str, as_one: bool) -> None:
+    """Both waves stand side by side; over half a turn (joint 4) they count as one, over less they may be a bend."""
+    once, twice = (number(space, "gear_eccentricity", joint, per_turn) for per_turn in ("1", "2"))
+    assert twice not in space.candidates[once].excludes
+    curve = space.candidates[number(space, "unknown", joint, "angle")]
+    ratio = number(space, "gear_ratio", joint, "")
+    assert curve.as_one == ({once, twice} if as_one else set())
+    assert curve.excess(frozenset({once, twice})) == (0 if as_one else 1)
+    assert curve.excess(frozenset({once, ratio})) == 1
+    assert curve.excess(frozenset({once, twice, ratio})) == (1 if as_one else 2)
+
+
 def test_a_wrong_payload_shows_only_through_what_gives_way(space: EffectSpace) -> None:
     for n, needed in space.requires.items():
         assert space.candidates[n].kind == "payload_error"

@@ -183,6 +183,14 @@ def test_special_cases_beyond_what_is_common_cost_more() -> None:
     assert (prices[0] - costs[0]) - (prices[1] - costs[1]) == pytest.approx(15.0)
 
 
+def test_special_cases_that_are_one_cause_count_as_one() -> None:
+    *members, curve = with_curve()
+    space = space_of([*members, replace(curve, as_one=frozenset({0, 1}))])
+    assert space.excess_special_cases(frozenset({0, 1})) == 0
+    assert space.excess_special_cases(frozenset({0, 1, 2})) == 1
+    assert space.excess_special_cases(frozenset({0, 2})) == 1
+
+
 def test_a_finer_form_competes_only_in_its_coarse_forms_place() -> None:
     fine = replace(single(1), columns=np.array([FRAMES + 1, FRAMES + 7]), prior_scale=np.ones(2))
     candidates = [*(single(n) for n in range(7)), replace(fine, competes=False, refines=1)]

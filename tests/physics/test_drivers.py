@@ -89,6 +89,20 @@ def test_a_heavier_payload_loads_as_one_of_that_weight_does_where_it_is_off_its_
             np.testing.assert_allclose(found, expected, atol=1e-9)
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_what_leaning_gravity_adds_to_a_load_is_what_it_does_to_an_arm_mounted_so(axis: int) -> None:
+    arm = arm_named("six-axis")
+    table = full_table(arm, 20, seed=12)
+    torque, scene = Driver("torque", (2,)), Scene(arm, table)
+    leaning = scene.with_leaning_gravity(axis, 0.05)
+    assert np.arccos(leaning.arm.gravity @ arm.gravity / 9.81**2) == pytest.approx(0.05)
+    change = Scene(leaning.arm, table).driver(torque) - scene.driver(torque)
+    np.testing.assert_allclose(leaning.driver(torque) - scene.driver(torque), change)
+    np.testing.assert_allclose(
+        0.05 * scene.driver(Driver("leaning", (torque, axis))), change, atol=0.05 * abs(change).max()
+    )
+
+
 def test_a_motor_without_load_is_on_no_side_of_its_gap() -> None:
     arm = arm_named("seven-axis")
     table = full_table(arm, 40, seed=5)

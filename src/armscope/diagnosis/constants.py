@@ -63,6 +63,9 @@ class LoopBudget(Constants):
     late_scans: int = constant(
         3, "for lines of gears once all else is known", "judgement: most tables end after one; time", unit="scans"
     )
+    scatter_settled: float = constant(
+        0.1, "relative change of scatter's size at which the rounds may end", "judgement: far below what a name feels"
+    )
     flickering: float = constant(
         0.002,
         "share of the rows that may still come and go when the rounds end",

@@ -22,6 +22,8 @@ from armscope.diagnosis.summary.effects import (
     with_weight,
 )
 from armscope.diagnosis.summary.homogeneity import subset_consistency
+from armscope.diagnosis.summary.laws_of_one_joint import doubts_of_laws
+from armscope.diagnosis.summary.leaning_gravity import told_by_gravity
 from armscope.diagnosis.summary.mislabelled import told_of_labels
 from armscope.diagnosis.summary.next_poses import next_poses
 from armscope.diagnosis.summary.other_backgrounds import doubts
@@ -57,7 +59,13 @@ from armscope.verdict.schema import (
     Unexplained,
     WaterfallStep,
 )
+from armscope.verdict.sentences import makes_worse
 
+NOT_YET = (
+    "Change nothing and correct no commands yet: the model with these names meets the rows worse than base and tool "
+    "alone. Confirm each by itself at the arm, or measure more rows."
+)
+"""In place of every cause's cure, where the whole model makes the error larger."""
 UNTESTED = HeldOut(float("nan"), float("nan"))
 """Where nothing was held out."""
 
@@ -121,21 +129,25 @@ def judge(
         notices=(*state.notices, *_carefully(state), *carefully, *told_of_labels(of_rows["suspects"])),
     )
     verdict = with_importance(draft, with_weight)
-    return replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
+    told = tuple(replace(c, cure=NOT_YET) for c in verdict.causes) if makes_worse(verdict) else verdict.causes
+    return replace(verdict, causes=told, waterfall=_with_weights(waterfall, named, verdict.effects))
 
 
 def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> SummaryBasis:
     """What every effect is told from."""
     fit, best, search = state.fit, state.best, Search.on(state.problem)
+    rivals = judged_elsewhere(state, alternatives(search, best), rng.spawn(1)[0])
+    of_backgrounds, of_laws = doubts(search, best), doubts_of_laws(search, best, rivals)
     return SummaryBasis(
         state,
         search,
-        judged_elsewhere(state, alternatives(search, best), rng.spawn(1)[0]),
+        rivals,
         inclusion_frequency(state, resamples, rng),
         fit.model.scene(state.recordings.rows(spread_evenly(len(state.recordings), TELLING.curve_rows))),
         _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),
-        doubts(search, best),
+        {number: extra + of_backgrounds.get(number, 0.0) for number, extra in of_laws.items()},
+        told_by_gravity(state),
     )
 
 

@@ -37,10 +37,11 @@ from armscope.physics.backgrounds import (
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
+from armscope.physics.freeform import follows_own_angle, spans_half_a_turn
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.soft_start import SOFT_START
 from armscope.physics.tilting import BASE_COMPLIANCE
-from armscope.physics.transmission import BACKLASH
+from armscope.physics.transmission import BACKLASH, GEAR_ECCENTRICITY
 
 SHARES = {
     GEOMETRIC: BACKGROUNDS.tolerance_shares,
@@ -176,12 +177,18 @@ def _candidates(
                 # what follows a joint's own angle is one, as a rule, beside its zero; of its load, two
                 side_by_side=1 if p.variant == "angle" else 2,
                 common=frozenset(n for n in beside_it if p.variant == "angle" and placed[n].effect is JOINT_OFFSET),
+                as_one=frozenset(n for n in beside_it if curve and _of_one_gear(p, placed[n])),
                 refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
                 removed_with=removed_with.get(number, frozenset()),
                 summed=_adding_up(layout, p, forms.get(p.key, ())),
             )
         )
     return tuple(candidates)
+
+
+def _of_one_gear(curve: Placed, p: Placed) -> bool:
+    """Whether a wave is one of those that a gear makes that sits off its centre and is oval, and rows show it so."""
+    return p.effect is GEAR_ECCENTRICITY and follows_own_angle(curve) and spans_half_a_turn(curve)
 
 
 def _adding_up(layout: ParameterLayout, p: Placed, forms: Sequence[Placed]) -> frozenset[int]:

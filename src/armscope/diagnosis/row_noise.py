@@ -99,9 +99,15 @@ class NoiseOfRows:
         return self._grows(model, noise_mm) or self.scatter_has_changed()
 
     def scatter_has_changed(self) -> bool:
-        """Look for scatter in what is left; take its whitening into account where it is new."""
+        """Look for scatter in what is left; take its whitening into account where its places or sizes are new.
+
+        What a fit leaves that knew nothing of the scatter tells neither for good: base and tool took up a part of it.
+        """
         found = self._find_scatter()
-        if {(s.motor, s.rounded) for s in found} == {(s.motor, s.rounded) for s in self.scatter}:
+        known = {(s.motor, s.rounded): s.size for s in self.scatter}
+        if {(s.motor, s.rounded) for s in found} == known.keys() and all(
+            s.rounded or abs(s.size - known[s.motor, False]) <= LOOP.scatter_settled * s.size for s in found
+        ):
             return False
         self._take(found)
         return True

@@ -85,6 +85,9 @@ class SelectionLoop:
         """Rounds until nothing changes, and what of that earns its place."""
         self.search()
         self._look_for_lines_again()
+        for _ in range(LOOP.late_scans if self.noise.scatter else 0):
+            if self.noise.scatter_has_changed():  # told anew from what a fit leaves that knows of it
+                self.round(self._where_it_ended())
         return self.earned(finer=True)
 
     def search(self, of_a_sample: bool = False) -> None:
@@ -109,7 +112,8 @@ class SelectionLoop:
             )
             state = self._state()
             same = previous is not None and state.is_like(previous)
-            may_end = not new and same and (settled or not self._depends())
+            depends = any(c in self.space.requires for c in self.best.candidates)  # on values that must settle, too
+            may_end = not new and same and (settled or not depends)
             if may_end and not self.noise.has_changed(self.model, self.fit.noise):
                 break
             settled, previous = same, state
@@ -288,10 +292,6 @@ class SelectionLoop:
     def _state(self) -> RoundState:
         chosen = [self.space.candidates[c] for c in self.best.candidates]
         return RoundState.of(chosen, self.noise.weights)
-
-    def _depends(self) -> bool:
-        """Whether some effect requires others, whose values then must settle, too."""
-        return any(c in self.space.requires for c in self.best.candidates)
 
     def _scanned(self, search: Search, most: int) -> list[Placed]:
         """New candidates whose scanned numbers promise something; gears' lines up to so many per turn."""

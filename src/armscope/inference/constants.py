@@ -25,7 +25,7 @@ class SelectionPriors(Constants):
     )
     excess_special_case_nats: float = constant(
         15.0,
-        "price of every further effect that follows one joint's own angle",
+        "price of every further effect that follows one joint's own angle; waves once and twice per turn are one",
         "measured: in development worlds two names for one kink beat the free curve by at most 22 nats, "
         "half of them by less than 10, and 38 of 40 true pairs by more than 15; twice and half change no "
         "golden verdict",

@@ -45,6 +45,7 @@ class Candidate:
         requires: it does nothing without one of these; None where it stands by itself.
         special_cases: candidates that the curve contains.
         side_by_side: how many special cases of the curve may well stand side by side, beside what is ``common``.
+        as_one: special cases that are one cause, however many of them there are.
         refines: the candidate of which this is a finer form.
         removed_with: candidates with which, one at a time, it is taken out, too.
         summed: columns of a background that add up to its own, where that has them in place of its own.
@@ -71,6 +72,7 @@ class Candidate:
     special_cases: frozenset[int] = NONE
     side_by_side: int = 1
     common: frozenset[int] = NONE
+    as_one: frozenset[int] = NONE
     refines: int | None = None
     removed_with: frozenset[int] = NONE
     summed: frozenset[int] = NONE
@@ -92,8 +94,10 @@ class Candidate:
 
     def excess(self, candidates: frozenset[int]) -> int:
         """By how many its special cases exceed what is common side by side; what is common counts beside too many."""
-        uncommon = len((self.special_cases - self.common) & candidates)
-        return (uncommon if uncommon <= self.side_by_side else len(self.special_cases & candidates)) - self.side_by_side
+        inside = self.special_cases & candidates
+        allowed = self.side_by_side + max(len(inside & self.as_one) - 1, 0)
+        uncommon = len(inside - self.common)
+        return (uncommon if uncommon <= allowed else len(inside)) - allowed
 
     @property
     def taken_up_by(self) -> str:

@@ -295,7 +295,7 @@ class FormRules(Constants):
     fewest_ordered_rows: int = constant(20, "whose order can tell drift", "judgement: fewer are any order", unit="rows")
     slope_share: float = constant(
         1e-3,
-        "of a link's mass, by which slopes of loads are taken",
+        "of a link's mass, or rad of gravity's direction, by which slopes of loads are taken",
         "derived: what bends with the load hardly does so here",
     )
     no_torque_nm: float = constant(

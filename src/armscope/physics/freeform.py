@@ -39,6 +39,16 @@ def follows_own_angle(placed: Placed) -> bool:
     return placed.parametrisation == "curve" and placed.variant == "angle"
 
 
+def spans_half_a_turn(curve: Placed) -> bool:
+    """Whether a free curve of a joint's own angle was learned on half a turn at least.
+
+    Over less, waves once and twice per turn are any smooth bend: four numbers that a cable or a hose needs, too.
+    """
+    drivers = [product.driver for term in curve.terms for product in term.products]
+    slowest = min(driver.number(1) for driver in drivers if driver.kind == "cosine")
+    return slowest <= 2 / FORM.slack
+
+
 def refined(arm: Arm, recordings: Recordings, curve: Placed) -> Placed | None:
     """A free curve of a joint's own angle with the finest waves that a long table carries; None for other curves.
 

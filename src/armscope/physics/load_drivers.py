@@ -81,6 +81,13 @@ def _heavier_links(scene: LoadedArm, load: Driver, link: int, *links: int) -> Ar
     return change / FORM.slope_share
 
 
+def _leaning(scene: LoadedArm, load: Driver, axis: int) -> Array:
+    """Slope of a load driver over the angle by which gravity turns about one of two axes across it, per rad."""
+    leaning = scene.remember(("leaning", axis), lambda: scene.with_leaning_gravity(axis, FORM.slope_share))
+    change: Array = leaning.driver(load) - scene.driver(load)
+    return change / FORM.slope_share
+
+
 def _regressor(scene: LoadedArm, j: int, *weights: float) -> Array:
     """Combination of the static torque regressor's columns of motor j: gravity torque of unknown mass moments."""
     return np.asarray(static_regressor(scene)[:, j - 1] @ np.array(weights))
@@ -124,6 +131,7 @@ LOADS: dict[str, DriverKind] = {
     "heavier during run": DriverKind(_heavier_during_run, follows=_LOAD | {"run"}),
     "heavier by share": DriverKind(_heavier_by_share, follows=_LOAD),
     "heavier link": DriverKind(_heavier_links, follows=_LOAD),
+    "leaning": DriverKind(_leaning, follows=_LOAD),
     "off centre": DriverKind(_off_centre, follows=_LOAD),
     "regressor": DriverKind(_regressor, follows=frozenset({"load"})),
     "load side": DriverKind(_load_side, follows=_LOAD | {"torque"}),

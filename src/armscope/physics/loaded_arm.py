@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from armscope.core.location import Location
-from armscope.core.rotations import cross
+from armscope.core.rotations import cross, turned_by
 from armscope.core.types import Array
 from armscope.physics.terms import Driver
 from armscope.recordings import Recordings
@@ -112,6 +112,13 @@ class LoadedArm(ABC):
             known = (links, share, self._loaded_by(heavier, force, moment))
             self._memory["heavier links"] = known
         return known[2]
+
+    def with_leaning_gravity(self, axis: int, angle: float) -> Self:
+        """The same rows with gravity turned by an angle, rad, about one of two axes (0 or 1) across it."""
+        across = np.linalg.svd(self.arm.gravity[None])[2][1 + axis]
+        other = self.loaded_as(self.misstated)
+        other.arm = replace(self.arm, gravity=turned_by(angle * across) @ self.arm.gravity)
+        return other
 
     @property
     def linkage(self) -> Linkage:

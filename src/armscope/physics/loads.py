@@ -77,3 +77,19 @@ def _mass_error(location: str, known: Sequence[Product], usual: float, heavier: 
     products = (Product(g.direction, Driver(heavier, (g.driver, *which)), g.factor) for g in known)
     share = Term("share", "of its mass", 1.0, tuple(products), usual)
     return Placed(STATED_MASSES, location, (share,), (usual,), "loads")
+
+
+def gravity_that_leans(known: Sequence[Product]) -> tuple[Term, Term]:
+    """Gravity that leans, about two axes across its stated direction: what gives way then gives way beside its load.
+
+    Args:
+        known: what gives way, and how much (`givings`).
+
+    Returns:
+        Terms, rad.
+    """
+
+    def about(axis: int) -> tuple[Product, ...]:
+        return tuple(Product(g.direction, Driver("leaning", (g.driver, axis)), g.factor) for g in known)
+
+    return Term("about_x", "rad", 1.0, about(0)), Term("about_y", "rad", 1.0, about(1))

@@ -97,6 +97,7 @@ GEAR_ECCENTRICITY = Effect(
         instruction="Re-centre the encoder disc or gear of {location}, or {correction}.",
     ),
     clauses=(swings("the angle of {location} swings"),),
+    several=True,
     atlas=waves_column,
     contained_in=("angle",),
 )

@@ -142,9 +142,14 @@ def holds(verdict: Verdict) -> bool:
 
 
 def makes_worse(verdict: Verdict) -> bool:
-    """Whether such rows are clearly worse with the model."""
-    promise = promised(verdict)
-    return promise.after > WORDS.clearly_worse * promise.before
+    """Whether such rows are clearly worse with the model; or worse at all, as the rows are that it was fitted to.
+
+    Rows that fit no name, and those of joints that scatter, count little in a fit: it may miss all rows by more then.
+    """
+    promise, held = promised(verdict), verdict.held_out
+    fits_worse = verdict.residual_after_mm > verdict.residual_before_mm
+    worse_at_all = held.after > held.before and held.after_all_rows > held.before_all_rows
+    return promise.after > WORDS.clearly_worse * promise.before or (fits_worse and worse_at_all)
 
 
 def background_in_words(verdict: Verdict) -> str:

@@ -14,7 +14,8 @@ from armscope.diagnosis.held_out_worth import held_out_errors
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.summary import alternatives as summary
-from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, inclusion_frequency, too_close
+from armscope.diagnosis.summary.alternatives import _held_out_errors, alternatives, inclusion_frequency
+from armscope.diagnosis.summary.rivals import too_close
 from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import Candidate, ModelSpace

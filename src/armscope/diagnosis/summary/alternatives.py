@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,6 +14,8 @@ from armscope.diagnosis.curve_shapes import DRIVE, rest_of
 from armscope.diagnosis.held_out_worth import held_out_errors
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.laws_of_one_joint import laws_beside_zero, stand_together
+from armscope.diagnosis.summary.rivals import Rival
 from armscope.inference.confidence_set import confidence_set
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis
@@ -22,31 +23,8 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Specific
+from armscope.verdict.effects import Alternative, Specific
 from armscope.verdict.wording import effect_in_words, places_in_words
-
-
-class Rival(NamedTuple):
-    """What could stand in an effect's place.
-
-    Attributes:
-        gap: nats by which it falls short.
-        candidate, hypothesis: what it is, and the hypothesis with it.
-        near: whether its evidence is near enough for it to be listed whatever other rows say.
-        held: columns that are zero in it, though a background has them.
-        excluded: whether rows that took no part exclude it.
-    """
-
-    gap: float
-    candidate: Candidate
-    hypothesis: Hypothesis
-    near: bool
-    held: tuple[int, ...] = ()
-    excluded: bool | None = None
-
-    def in_background_of(self, effect: Candidate) -> bool:
-        """Whether an effect and this are two of the many that one background holds."""
-        return bool(self.held) and self.hypothesis.chosen[-1].nested and self.candidate.family == effect.family
 
 
 def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
@@ -87,6 +65,7 @@ def _of_one(search: Search, best: Hypothesis, number: int, refused: _Refused) ->
     explained_anyway = search.in_background(best, number)
     paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
     rivals = _in_place_of(search, best, number, rest, paid, refused)
+    rivals += laws_beside_zero(search, best, number)
     if rest and not explained_anyway:
         alone = _in_place_of(search, best, number, [], 0.0, refused)
         rivals += [rival for rival in alone if not rival.candidate.is_curve]
@@ -107,7 +86,7 @@ def _in_place_of(
         held = tuple(int(column) for column in candidate.held)
         search = search.holding(candidate.held)
     base = search.without(best, [number, *rest])
-    taken = {search.candidate(c).key for c in best.candidates}
+    taken = {search.candidate(c).key for c in best.candidates if not stand_together(search, c, number)}
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
     lost = best.log_posterior - base.log_posterior
@@ -147,27 +126,6 @@ def _price_of_curve(search: Search, line: Candidate) -> float:
     """What the curve that a line was taken from cost, nats: its names were free."""
     curves = [n for n in line.excludes if search.candidate(n).is_curve]
     return search.problem.cost(curves[0]) if curves else 0.0
-
-
-def discriminability(best: Hypothesis, other: Hypothesis, effect: Candidate, rival: Candidate) -> float:
-    """Nats by which the data tell an effect and its rival apart.
-
-    The evidence also holds what a rival of one parameter more (a wave of free phase) pays for it; where the two fit
-    alike, that is no measurement: such a rival counts by its fit alone. Larger ones fit anything and count in full.
-
-    Args:
-        best: the hypothesis with the effect.
-        other: the one with its rival.
-        effect: in place.
-        rival: in place.
-
-    Returns:
-        Nats; negative where the rival fits better.
-    """
-    gap = best.log_posterior - other.log_posterior
-    if len(rival.columns) > len(effect.columns) + 1:
-        return gap
-    return min(gap, max((other.rss - best.rss) / (2 * best.noise**2), 0.0))
 
 
 def judged_elsewhere(
@@ -211,28 +169,6 @@ def _held_out_errors(state: DiagnosisState, rivals: Sequence[Rival]) -> Array:
     return errors
 
 
-def too_close(effect: Candidate, found: Sequence[Rival], apart: Sequence[float]) -> list[Candidate]:
-    """Rivals beside which an effect's name is not sure: they fit as well, or what was free has not earned its name.
-
-    A name out of a background paid nothing for being this one and no other of many; rows that took no part must
-    exclude the others.
-
-    Args:
-        effect: that has the name.
-        found: rivals, judged.
-        apart: the `discriminability` of each, nats.
-
-    Returns:
-        What they are.
-    """
-    return [
-        rival.candidate
-        for rival, nats in zip(found, apart, strict=True)
-        if rival.near
-        and (nats < INDISTINGUISHABLE_NATS or (rival.excluded is False and rival.in_background_of(effect)))
-    ]
-
-
 def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
     return tuple(
@@ -250,8 +186,10 @@ def specific_name(effect: Candidate, rivals: Sequence[Candidate]) -> tuple[Speci
     together = [effect, *rivals]
     regions = sorted({c.region for c in together})
     families = sorted({c.family for c in together})
-    if len(families) > 1:
-        return "region", " or ".join(effect_in_words(c.kind, c.location) for c in together[:3])
+    kinds = list(dict.fromkeys((c.kind, c.location) for c in together))
+    at_one_place = len({c.location for c in together}) == 1 < len(kinds)
+    if len(families) > 1 or at_one_place:
+        return "region", " or ".join(effect_in_words(*kind) for kind in kinds[:3])
     if len(regions) == 1 or _adjacent(regions):
         return "region", f"{families[0]}, around {_places(regions)}"
     return "family", f"{families[0]}, somewhere around {_places(regions)}"

@@ -35,6 +35,9 @@ class TellingRules(Constants):
         "of an effect's size by which parts of the rows may differ and still give the same",
         "judgement: seen with bench cases in view; who cures an effect by it takes 95 % away",
     )
+    parallel_rad: float = constant(
+        0.02, "between axes that count as parallel", "judgement: far beyond what a drawing is off", unit="rad"
+    )
     noise_shortfall: float = constant(
         0.75, "of the stated noise, below which a residual makes it doubtful", "judgement: statements are rounded"
     )

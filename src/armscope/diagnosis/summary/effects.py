@@ -13,11 +13,13 @@ from armscope.diagnosis.naming import nested_log_odds
 from armscope.diagnosis.scans.change_points import when_stderr
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.alternatives import Rival, discriminability, listed, specific_name, too_close
+from armscope.diagnosis.summary.alternatives import listed, specific_name
 from armscope.diagnosis.summary.balancing_spring import balancing_spring
 from armscope.diagnosis.summary.effect_curve import curve_of
 from armscope.diagnosis.summary.homogeneity import SameSize
+from armscope.diagnosis.summary.leaning_gravity import LEVEL_IT, LOOK_AT_THE_LEVEL
 from armscope.diagnosis.summary.parameters import parameters, undetermined
+from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.refit import Refit
 from armscope.inference.model_space import Candidate
@@ -28,7 +30,7 @@ from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
 from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.physics.scene import Scene
-from armscope.verdict.effects import FoundEffect, Parameter
+from armscope.verdict.effects import Alternative, FoundEffect, Parameter
 from armscope.verdict.schema import Background
 from armscope.verdict.wording import effect_in_words
 
@@ -45,7 +47,8 @@ class SummaryBasis:
         scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
         model_error: what no effect explains, and what it does to the covariance.
-        background_doubt: by candidate, what backgrounds of other sizes add to the covariance of its values.
+        leaning: by candidate, gravity that leans, where it does as well.
+        other_doubt: by candidate, what backgrounds of other sizes and other laws of its joint add to the covariance.
     """
 
     state: DiagnosisState
@@ -55,7 +58,8 @@ class SummaryBasis:
     scene: Scene
     equations: NormalEquations
     model_error: ModelError
-    background_doubt: Mapping[int, Array]
+    other_doubt: Mapping[int, Array]
+    leaning: Mapping[int, Alternative]
 
 
 def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
@@ -77,19 +81,23 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
     values, covariance = _with_drive_of_background(fit, part, basis.model_error.covariance)
-    covariance = covariance + basis.background_doubt.get(chosen.candidate, 0.0)
+    covariance = covariance + basis.other_doubt.get(chosen.candidate, 0.0)
     rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
     apart = [discriminability(state.best, r.hypothesis, candidate, r.candidate) for r in rivals]
     named_as, title = specific_name(candidate, too_close(candidate, rivals, apart))
-    others, confirm = listed(rivals, apart), words.confirm
+    others, confirm, cure = listed(rivals, apart), words.confirm, words.cure.words
     spring = balancing_spring(fit.model, part, basis.scene)
     if spring is not None:
         rival, look = spring
         others, confirm = (rival, *others), f"{look} {confirm}"
         if named_as == "effect" and placed.name != JOINT_COMPLIANCE.name:  # the drive gives way beside a spring as well
             named_as, title = "region", f"{title} or {effect_in_words(rival.effect, rival.location)}"
+    leaning = basis.leaning.get(chosen.candidate)
+    if leaning is not None:
+        others, confirm, cure = (leaning, *others), f"{LOOK_AT_THE_LEVEL} {confirm}", f"{LEVEL_IT} {cure}"
+        named_as, title = "region", f"{title} or {effect_in_words(leaning.effect, leaning.location)}"
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     found = FoundEffect(
@@ -110,7 +118,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         curve=curve_of(placed, part.values, covariance, basis.scene),
         physics=words.physics,
         confirm=confirm,
-        cure=words.cure.words,
+        cure=cure,
     )
     return _as_sure_as_its_size(found, candidate)
 

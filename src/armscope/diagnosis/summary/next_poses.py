@@ -8,9 +8,9 @@ import numpy as np
 
 from armscope.design.separation import nats_apart, separating
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.alternatives import Rival, discriminability
 from armscope.diagnosis.summary.constants import NEXT_POSES
 from armscope.diagnosis.summary.reachable import checked_in_words, free_space, reachable
+from armscope.diagnosis.summary.rivals import Rival, discriminability
 from armscope.fitting.design_matrix import point_columns
 from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms

@@ -12,7 +12,9 @@ from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.gaps import Gap, gaps, sums_beside
 from armscope.fitting.joint_scatter import motor_jacobians
+from armscope.physics.model import FittedModel
 from armscope.recordings import Recordings, motion
+from armscope.robot.kinematics import chain, joint_axes
 from armscope.verdict.effects import FoundEffect, Parameter
 
 NOTHING = "nothing in the table"
@@ -40,13 +42,43 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
     sizes = [each.size * float(np.sqrt(np.mean(moved[each.motor - 1] ** 2))) for each in at_fault]
     together = sum(rms**2 for rms in sizes)
     plays = _plays(state, [each.motor for each in at_fault])
+    unsure = side_by_side_joints(state.fit.model, state.recordings, [each.motor for each in at_fault])
     for scattered, rms in zip(at_fault, sizes, strict=True):
         location, stderr = f"joint {scattered.motor}", scattered.size / np.sqrt(2 * moved.shape[1])
         play = plays.get(scattered.motor)
         found = _told(location, Parameter("scatter", "rad", scattered.size, stderr), play)
         share = rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0
         cure = _cure(play, len(moved))
+        if (others := unsure[scattered.motor]) and play is None:
+            places = " or ".join(f"scatter at joint {motor}" for motor in (scattered.motor, *others))
+            found = replace(found, named_as="region", title=places)
         yield replace(found, rms_at_tool_mm=rms, share=share, evidence_nats=scattered.evidence, cure=cure)
+
+
+def side_by_side_joints(model: FittedModel, recordings: Recordings, motors: Sequence[int]) -> dict[int, list[int]]:
+    """Of each of some motors the others whose joints turn about axes along its own: rows hardly tell which scatters.
+
+    They move the tool in one plane. What one of them does that grows with its load, say, and what base and tool take
+    up of it, leave something at the other's lever.
+
+    Args:
+        model: of the arm.
+        recordings: rows.
+        motors: counted from 1.
+
+    Returns:
+        Motors, by motor.
+    """
+    if len(motors) < 2:
+        return {motor: [] for motor in motors}
+    every = joint_axes(chain(model.arm, recordings.motor_angles))
+    axes = {motor: every[:, :, np.argmax(np.abs(model.arm.actuation[:, motor - 1]))] for motor in motors}
+    nearest = np.cos(TELLING.parallel_rad)
+
+    def along(one: int, other: int) -> bool:
+        return one != other and bool(np.abs(np.sum(axes[one] * axes[other], axis=1)).min() > nearest)
+
+    return {one: [other for other in motors if along(one, other)] for one in motors}
 
 
 def told_as_scatter(found: FoundEffect, motors: int) -> FoundEffect:

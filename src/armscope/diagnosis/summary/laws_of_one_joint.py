@@ -1,0 +1,101 @@
+"""Laws of one joint's own angle side by side: waves once and twice per turn, a trend, a zero; and what rows leave open.
+
+A gear or an encoder's disc may sit off its centre and be oval, so a joint may have both waves. Over less than a turn a
+wave is a trend about another zero: rows may then tell one wave, but not what stands beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from armscope.core.types import Array
+from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.search import Search
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
+
+
+def stand_together(search: Search, one: int, other: int) -> bool:
+    """Whether two effects are laws of one joint's own angle: a further wave may then stand in the other's place.
+
+    Args:
+        search: on the problem.
+        one: candidate.
+        other: candidate.
+
+    Returns:
+        Whether one free curve contains both.
+    """
+    return one != other and any(c.is_curve and {one, other} <= c.special_cases for c in search.space.candidates)
+
+
+def laws_beside_zero(search: Search, best: Hypothesis, number: int) -> list[Rival]:
+    """What could replace a law of a joint's own angle beside that joint's zero, which every arm has.
+
+    A wave over less than a turn is a trend about another zero. Two names pay more than one, and neither does much
+    alone; but a price is no measurement: where the two fit as well, rows do not tell.
+
+    Args:
+        search: on the problem.
+        best: the chosen hypothesis.
+        number: of the law.
+
+    Returns:
+        The laws that fit as well, each beside the zero.
+    """
+    effect = search.candidate(number)
+    curves = [c for c in search.space.candidates if c.is_curve and c.competes and number in c.special_cases - c.common]
+    found = []
+    for curve in curves if len(effect.columns) > 1 else ():
+        for zero in curve.common - best.candidates:
+            beside = _added(search, search.without(best, [number]), {zero})
+            laws = curve.special_cases - best.candidates - curve.common
+            other = beside and _added(search, beside, laws)
+            if other and (other.rss - best.rss) / (2 * best.noise**2) < INDISTINGUISHABLE_NATS:
+                gap = best.log_posterior - other.log_posterior
+                found.append(Rival(gap, search.candidate(other.chosen[-1].candidate), other, near=True))
+    return found
+
+
+def _added(search: Search, hypothesis: Hypothesis, some: Collection[int]) -> Hypothesis | None:
+    """A hypothesis with the most promising of some candidates; None where none can stand beside it."""
+    others = set(range(len(search.space.candidates))) - set(some)
+    return next(iter(search.additions(hypothesis, 1, others)), None)
+
+
+def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequence[Rival]]) -> dict[int, Array]:
+    """What the covariance of a law's values gains where another law of its joint could be a third one.
+
+    Args:
+        search: on the problem.
+        best: the chosen hypothesis.
+        rivals: of each of its effects.
+
+    Returns:
+        By candidate, (k, k) in SI units: as much as its interval needs to reach the value that it has beside the rival.
+    """
+    scale, gained = search.problem.scale, {}
+    for number in best.candidates:
+        columns = search.candidate(number).columns
+        told, extra = best.means(columns), np.zeros((len(columns), len(columns)))
+        for rival in _unsettled_beside(search, best, number, rivals):
+            away = (rival.hypothesis.means(columns) - told) / scale[columns] / INTERVAL
+            extra += np.outer(away, away)
+        gained[number] = extra
+    return gained
+
+
+def _unsettled_beside(
+    search: Search, best: Hypothesis, number: int, rivals: Mapping[int, Sequence[Rival]]
+) -> list[Rival]:
+    """Rivals of a law's neighbours that rows do not tell from those, and beside which the law still stands."""
+    beside = [other for other in best.candidates if stand_together(search, other, number)]
+    found = []
+    for other in beside:
+        effect, some = search.candidate(other), rivals.get(other, ())
+        apart = [discriminability(best, rival.hypothesis, effect, rival.candidate) for rival in some]
+        close = too_close(effect, some, apart)
+        found += [rival for rival in some if rival.candidate in close and number in rival.hypothesis.candidates]
+    return found

@@ -1,0 +1,72 @@
+"""A gear that errs once and twice per turn is told as two waves; what rows leave open of one is owned by the other."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import INTERVAL
+from tests.diagnosis.planted import one_run, recorded
+from tests.physics.scenes import arm_named
+from tests.seeds import seeds
+
+QUICK = Settings(resamples=0, cross_validation=False)
+
+
+@functools.cache
+def told_of(seed: int, half_range: float, amplitudes: tuple[float, float], trend: float = 0.0) -> Diagnosis:
+    """A gear of joint 3 that errs by so much, rad, once and twice per turn, and by a trend, rad/rad."""
+    arm, rng = arm_named("six-axis"), np.random.default_rng(seed)
+    table = one_run(arm, 150, seed)
+    angles = table.motor_angles.copy()
+    angles[:, 2] = rng.uniform(-half_range, half_range, len(angles)) + 0.3
+    turned = angles.copy()
+    for per_turn, amplitude, phase in zip((1, 2), amplitudes, rng.uniform(-3, 3, 2), strict=True):
+        turned[:, 2] += amplitude * np.cos(per_turn * angles[:, 2] - phase)
+    turned[:, 2] += trend * angles[:, 2]
+    plain = replace(table, payload=None, temperature=None, time=None, approach=None, speed=None)
+    measured = recorded(arm, replace(plain, motor_angles=turned), {}, 0.03, seed)
+    return diagnose(arm, replace(measured, motor_angles=angles), QUICK)
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_a_gear_that_errs_once_and_twice_per_turn_has_both_names(seed: int) -> None:
+    found = told_of(seed, 2.6, (4e-4, 3e-4)).effects
+    assert {(e.effect, e.location, e.parameters[2].value) for e in found} == {
+        ("gear_eccentricity", "joint 3", 1.0),
+        ("gear_eccentricity", "joint 3", 2.0),
+    }
+    for effect in found:
+        amplitude = effect.parameters[0]
+        true = 4e-4 if effect.parameters[2].value == 1.0 else 3e-4
+        assert abs(amplitude.value - true) < 1.5 * INTERVAL * amplitude.stderr
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2))
+def test_one_wave_is_told_as_one(seed: int) -> None:
+    (once,) = told_of(seed, 2.6, (4e-4, 0.0)).effects
+    assert (once.effect, once.named_as, once.parameters[2].value) == ("gear_eccentricity", "effect", 1.0)
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_over_a_short_range_a_wave_may_be_a_trend_about_another_zero(seed: int) -> None:
+    """Either the truth is named, with intervals that hold it, or what is named is said to be unsure."""
+    verdict = told_of(seed, 1.1, (4e-4, 3e-4))
+    waves = {e.parameters[2].value: e for e in verdict.effects if e.effect == "gear_eccentricity"}
+    unsure = [e for e in verdict.effects if e.named_as != "effect"]
+    assert set(waves) == {1.0, 2.0} or unsure
+    for per_turn, effect in waves.items() if len(waves) == 2 else ():
+        true = 4e-4 if per_turn == 1.0 else 3e-4
+        amplitude = effect.parameters[0]
+        assert abs(amplitude.value - true) < 1.5 * INTERVAL * amplitude.stderr
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2))
+def test_a_trend_alone_is_told_as_a_ratio(seed: int) -> None:
+    (ratio,) = told_of(seed, 2.6, (0.0, 0.0), trend=4e-4).effects
+    assert (ratio.effect, ratio.location, ratio.named_as) == ("gear_ratio", "joint 3", "effect")

@@ -1,0 +1,54 @@
+"""An arm on a wedge: what gravity that leans does through soft joints has no bearing's name for sure."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from armscope.diagnosis import Settings, diagnose
+from armscope.robot import Arm
+from armscope.robot.arm import build_arm
+from armscope.verdict.diagnosis import Diagnosis
+from tests.diagnosis.planted import Wanted, one_run, recorded
+from tests.physics.scenes import arm_named
+from tests.seeds import seeds
+
+QUICK = Settings(resamples=0, cross_validation=False)
+SOFT: Wanted = {("joint_compliance", "joint 2"): [4e-6], ("joint_compliance", "joint 3"): [3e-6]}
+
+
+def leaning(arm: Arm, degrees: float) -> Arm:
+    """The arm with gravity that leans to the side."""
+    g = 9.81 * np.array([np.sin(np.radians(degrees)), 0.0, -np.cos(np.radians(degrees))])
+    return build_arm(arm.description.model_copy(update={"gravity_m_s2": tuple(g.tolist())}))
+
+
+def told_upright(degrees: float, planted: Wanted, seed: int) -> Diagnosis:
+    """The verdict on an arm that leans, of which it is stated that it stands upright."""
+    upright = arm_named("six-axis")
+    table = one_run(upright, 150, seed)
+    return diagnose(upright, recorded(leaning(upright, degrees), table, planted, 0.03, seed), QUICK)
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_what_a_wedge_does_has_no_other_name_for_sure(seed: int) -> None:
+    for effect in told_upright(3.0, SOFT, seed).effects:
+        if effect.effect != "joint_compliance" and effect.effect != "unknown":
+            assert "leaning_gravity" in {other.effect for other in effect.alternatives}, effect.title
+            assert effect.named_as != "effect"
+            assert "leaning gravity" in effect.title
+            assert effect.cure.startswith("Level the base")
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2))
+def test_a_bearing_that_tilts_in_an_upright_arm_keeps_its_name(seed: int) -> None:
+    wobble: Wanted = {**SOFT, ("axis_wobble", "joint 1"): [5e-5, 2e-5, -4e-5, 3e-5]}
+    (found,) = [e for e in told_upright(0.0, wobble, seed).effects if e.effect == "axis_wobble"]
+    assert found.named_as == "effect"
+    assert "leaning_gravity" not in {other.effect for other in found.alternatives}
+
+
+def test_an_arm_of_which_nothing_gives_way_tells_nothing_of_gravity() -> None:
+    verdict = told_upright(0.0, {("gear_eccentricity", "joint 1"): [4e-4, 2e-4]}, 1)
+    assert [e.effect for e in verdict.effects] == ["gear_eccentricity"]
+    assert "leaning_gravity" not in {other.effect for e in verdict.effects for other in e.alternatives}
