@@ -37,7 +37,7 @@ from armscope.measurement.channel import nuisances
 from armscope.measurement.noise import known_noise
 from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.backgrounds import FAMILIES
-from armscope.physics.constants import FORM
+from armscope.physics.form_constants import FORM
 from armscope.recordings import read_recordings
 from armscope.report.style import BLUE, GREY, ORANGE, VERMILION, save_figure, styled
 from armscope.robot import load_arm

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from armscope.physics.constants import FORM
 from armscope.physics.effect import Part
+from armscope.physics.form_constants import FORM
 from armscope.physics.geometric import PARALLELOGRAM_GEOMETRY, finer_bars, is_parallelogram
 from armscope.physics.scene import Scene
 from armscope.robot import Arm

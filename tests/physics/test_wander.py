@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
+from armscope.physics.form_constants import FORM
 from armscope.physics.scene import Scene
 from armscope.physics.wander import is_of_rows, link_wander, wander
 

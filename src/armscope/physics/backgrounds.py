@@ -12,8 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.physics import elastic, geometric, tilting, transmission
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Placed
+from armscope.physics.form_constants import FORM
 from armscope.physics.orientation_error import orientation_errors
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import SetUps

@@ -11,8 +11,8 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told
-from armscope.physics.constants import FORM
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps, in_order_of_time
 from armscope.recordings import Recordings

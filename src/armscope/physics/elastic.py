@@ -8,9 +8,10 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import below_zero
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.load_drivers import static_regressor
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene

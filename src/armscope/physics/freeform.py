@@ -10,11 +10,12 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.physics.clause import Told
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
 from armscope.physics.elastic import drive, loaded_joints
+from armscope.physics.form_constants import FORM
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.recorded_drivers import REFERENCE_TEMPERATURE_C, SECONDS_PER_HOUR

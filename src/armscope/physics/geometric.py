@@ -10,9 +10,10 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import Told, swings, waves_column
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.joint_directions import directions_of_a_joint
 from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM
+from armscope.physics.form_constants import FORM
 from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.terms import DriverKind
 

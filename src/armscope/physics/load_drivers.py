@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM
+from armscope.physics.form_constants import FORM
 from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.recorded_drivers import recorded
 from armscope.physics.terms import Driver, DriverKind

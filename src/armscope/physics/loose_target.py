@@ -16,8 +16,9 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.physics.clause import Told, clear_ones
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, Term, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm

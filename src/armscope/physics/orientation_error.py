@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import itertools
 
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import nowhere
 from armscope.recordings import Recordings
 

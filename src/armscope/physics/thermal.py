@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from armscope.physics.clause import below_zero, clear_ones
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Placed, Product, motor, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import moving_joints, varies
 from armscope.recordings import Recordings
 from armscope.robot import Arm

@@ -10,9 +10,10 @@ import numpy as np
 
 from armscope.core.numerals import rounded
 from armscope.physics.clause import Told, below_zero, swings, waves_column
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import Driver, Effect, Placed, Product, Term, motor, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import moving_joints, nowhere, varying_columns
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings

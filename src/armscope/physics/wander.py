@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drift import six_terms
 from armscope.physics.effect import Cure, Driver, Effect, Placed, Product, Term, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import nowhere, varies
 from armscope.physics.set_ups import SetUps
 from armscope.physics.thermal import growing_links

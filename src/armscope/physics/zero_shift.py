@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from armscope.physics.clause import Told
-from armscope.physics.constants import FORM, PLAUSIBLE
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.drift import from_then_on, moment, when
 from armscope.physics.effect import Driver, Effect, Placed, motor, term
+from armscope.physics.form_constants import FORM
 from armscope.physics.placing import moving_joints
 from armscope.physics.set_ups import in_order_of_time
 from armscope.recordings import Recordings

@@ -36,8 +36,8 @@ from armscope.inference.normal_equations import NormalEquations, total
 from armscope.measurement.registry import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric, tilting
-from armscope.physics.constants import FORM
 from armscope.physics.effect import Part, Placed
+from armscope.physics.form_constants import FORM
 from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints

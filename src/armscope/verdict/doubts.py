@@ -8,7 +8,8 @@ from armscope.core.words import enumerated
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
-from armscope.verdict.sentences import exact_phrase, kind_and_place
+from armscope.verdict.sentences import exact_phrase
+from armscope.verdict.unsettled import kind_and_place
 from armscope.verdict.wording import effect_in_words, plain
 
 OPEN = "to be settled"

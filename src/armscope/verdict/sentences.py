@@ -14,6 +14,7 @@ from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
 from armscope.verdict.promise import promised
 from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
+from armscope.verdict.unsettled import vague
 from armscope.verdict.wording import (
     BESIDE,
     GROWS,
@@ -24,7 +25,6 @@ from armscope.verdict.wording import (
     also_out,
     beyond_arms,
     capitalised,
-    effect_in_words,
     implausible,
     main_and_minor,
     millimetres,
@@ -231,7 +231,7 @@ def _left(verdict: Diagnosis) -> str:
 def phrase(effect: FoundEffect) -> str:
     """One effect as a clause: who does what, by how much."""
     if effect.named_as != "effect":
-        return _vague(effect)
+        return vague(effect)
     return exact_phrase(effect)
 
 
@@ -274,30 +274,3 @@ def _cannot_tell(verdict: Diagnosis) -> str:
     further = 0 if poses is None or not poses.settle else len(poses.motor_angles)
     settle = f"; {spelled(further)} further poses would settle it" if further else ""
     return f"Cannot tell: {uncapitalised(why)}{settle}."
-
-
-def _vague(effect: FoundEffect) -> str:
-    """A region or a family, with the best single reading."""
-    if " or " in effect.title:
-        return kind_and_place(effect)
-    open_size = ", of a size that these rows do not determine" if effect.size_open else ""
-    return f"{kind_and_place(effect)}, most likely {effect_in_words(effect.effect, effect.location)}{open_size}"
-
-
-def kind_and_place(effect: FoundEffect) -> str:
-    """What an unsettled cause is for sure, as a clause: one of two, or a kind of error in a region."""
-    if " or " in effect.title:
-        return f"either {plain(effect.title)}"
-    if effect.location == "payload":
-        return "the payload may not be as stated"
-    kinds = {
-        "elastic": "something gives way under load",
-        "instrument": "something is measured wrong",
-        "geometric": "the geometry differs from what was stated",
-        "transmission": "a drive does not turn as commanded",
-        "thermal": "something grows with temperature",
-        "drift": "something moves during the recording",
-        "unknown": "something follows no known physics",
-    }
-    _, _, where = effect.title.partition(", ")
-    return f"{kinds.get(effect.family, f'something {effect.family}')} {where or 'in the arm'}"

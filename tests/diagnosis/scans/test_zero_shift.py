@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.physics.constants import FORM
+from armscope.physics.form_constants import FORM
 from armscope.physics.zero_shift import ZERO_SHIFT, zero_shift
 from armscope.verdict.diagnosis import Diagnosis
 

@@ -13,8 +13,8 @@ from armscope.fitting.column_blocks import ModelColumns, TermBlocks
 from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import Problem
-from armscope.physics.constants import FORM
 from armscope.physics.effect import Placed
+from armscope.physics.form_constants import FORM
 from armscope.physics.loose_target import LOOSE_TARGET, nests_about, nests_anyhow
 
 
