@@ -45,8 +45,7 @@ def spans_half_a_turn(curve: Placed) -> bool:
 
     Over less, waves once and twice per turn are any smooth bend: four numbers that a cable or a hose needs, too.
     """
-    drivers = [product.driver for term in curve.terms for product in term.products]
-    slowest = min(driver.number(1) for driver in drivers if driver.kind == "cosine")
+    slowest = min(p.driver.number(1) for t in curve.terms for p in t.products if p.driver.kind == "cosine")
     return slowest <= 2 / FORM.slack
 
 
