@@ -94,3 +94,20 @@ def test_an_arm_of_six_axes_is_led_anywhere() -> None:
     assert can.is_everywhere
     assert can.told(np.zeros(3), pose=True) == ""
     assert not reachable_by(arm, np.arange(6) < 1).is_everywhere
+
+
+def test_five_motors_are_asked_for_points_not_for_every_orientation() -> None:
+    rows = [(0.0, 90.0, 400.0), (350.0, 0.0, 0.0), (300.0, 0.0, 0.0), (0.0, 90.0, 0.0), (0.0, 0.0, 120.0)]
+    joints = [{"a_mm": a, "alpha_deg": alpha, "d_mm": d} for a, alpha, d in rows]
+    arm = build_arm(RobotDescription.model_validate({"name": "five", "dh": {"joints": joints}, "tool_mm": [50, 0, 80]}))
+    angles = np.random.default_rng(4).uniform(-1, 1, (40, 5)) + np.array([0, 0.6, -1.0, 0.5, 0])
+    one, ids = np.full(40, ""), np.arange(40).astype(str)
+    table = Recordings(angles, np.zeros((40, 3)), run=one, target=one, id=ids)
+    model = FittedModel(arm, {"": Base(np.eye(3), np.zeros(3))})
+    path = as_path(pd.DataFrame(angles[:10], columns=[f"q{j}_rad" for j in range(1, 6)]), "path", arm)
+    for pose, reasons in (
+        (False, {""}),
+        (True, {"5 motors can't set every orientation: leave it free (without --pose)"}),
+    ):
+        options = Options(pose=pose, separate_points=True, allowed_outside=np.inf)
+        assert set(compensate_physical(model, identified_on(arm, table), path, options).reasons) == reasons

@@ -21,6 +21,7 @@ from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
 from armscope.core.parallel import piece_by_piece
 from armscope.core.types import Array, Indices
+from armscope.physics.effect import AXES
 from armscope.robot import Arm, tool_frames
 from armscope.robot.constants import SEARCH
 
@@ -100,7 +101,8 @@ class PathTask:
                 residual_turn[at] = found.residual_turn
                 iterations = max(iterations, found.solution.iterations)
                 moved = np.abs(found.solution.angles - nominal[at])
-                self._refuse_unsolved(refused, at, found.solution, moved, found.pole)
+                refuse(refused, at[found.pole], self._pole(can))
+                self._refuse_unsolved(refused, at, found.solution, moved)
         outside, nearest = self._refuse_outside(refused, commands, unit_doubt(wanted.points, self.arm.reach))
         residual = np.linalg.norm(wanted.points - predicted, axis=1)
         beside = can.left_out_of(wanted.points - predicted)
@@ -219,16 +221,15 @@ class PathTask:
             beyond = (angle < low[motor - 1] - slack) | (angle > high[motor - 1] + slack)
             refuse(refused, beyond, f"limit of joint {motor}")
 
-    def _refuse_unsolved(
-        self,
-        refused: NDArray[np.object_],
-        known: Indices,
-        solution: Solution,
-        moved: Array,
-        pole: NDArray[np.bool_],
-    ) -> None:
-        named = "pole of the wrist" if self.options.pose else "pole: the tool can't be moved in all directions"
-        refuse(refused, known[pole], named)
+    def _pole(self, can: Reachable) -> str:
+        """What a row is refused for whose tool can't be led as is asked."""
+        if not self.options.pose:
+            return "pole: the tool can't be moved in all directions"
+        few = can.is_everywhere and self.arm.n_motors < len(AXES)
+        too_few = f"{self.arm.n_motors} motors can't set every orientation: leave it free (without --pose)"
+        return too_few if few else "pole of the wrist"
+
+    def _refuse_unsolved(self, refused: NDArray[np.object_], known: Indices, solution: Solution, moved: Array) -> None:
         _refuse_at_limits(refused, known, solution)
         refuse(refused, known[~solution.converged], "no command found: the real arm can't get there")
         worst = np.argmax(moved, axis=1)
