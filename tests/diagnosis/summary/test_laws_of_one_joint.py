@@ -70,3 +70,12 @@ def test_over_a_short_range_a_wave_may_be_a_trend_about_another_zero(seed: int) 
 def test_a_trend_alone_is_told_as_a_ratio(seed: int) -> None:
     (ratio,) = told_of(seed, 2.6, (0.0, 0.0), trend=4e-4).effects
     assert (ratio.effect, ratio.location, ratio.named_as) == ("gear_ratio", "joint 3", "effect")
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_a_trend_beside_a_wave_is_told_as_one_or_it_is_said_that_it_may_be_one(seed: int) -> None:
+    found = told_of(seed, 1.1, (0.0, 3e-4), trend=4e-4).effects
+    told = {(e.effect, e.location) for e in found} | {(a.effect, a.location) for e in found for a in e.alternatives}
+    assert ("gear_ratio", "joint 3") in told
+    once = [e for e in found if e.effect == "gear_eccentricity" and e.parameters[2].value == 1.0]
+    assert all(e.named_as != "effect" for e in once)

@@ -11,8 +11,11 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
+from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis
+from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 
@@ -49,20 +52,25 @@ def laws_beside_zero(search: Search, best: Hypothesis, number: int) -> list[Riva
     curves = [c for c in search.space.candidates if c.is_curve and c.competes and number in c.special_cases - c.common]
     found = []
     for curve in curves if len(effect.columns) > 1 else ():
+        laws = curve.special_cases - best.candidates - curve.common
         for zero in curve.common - best.candidates:
-            beside = _added(search, search.without(best, [number]), {zero})
-            laws = curve.special_cases - best.candidates - curve.common
-            other = beside and _added(search, beside, laws)
-            if other and (other.rss - best.rss) / (2 * best.noise**2) < INDISTINGUISHABLE_NATS:
+            other = _beside_zero(search, search.without(best, [number]), zero, laws)
+            misfit = np.inf if other is None else (other.rss - best.rss) / (2 * best.noise**2)
+            if other is not None and misfit < INDISTINGUISHABLE_NATS:
                 gap = best.log_posterior - other.log_posterior
-                found.append(Rival(gap, search.candidate(other.chosen[-1].candidate), other, near=True))
+                if gap <= NAMING.listed_nats_of_special_cases:
+                    found.append(Rival(gap, search.candidate(other.chosen[-1].candidate), other, near=True))
     return found
 
 
-def _added(search: Search, hypothesis: Hypothesis, some: Collection[int]) -> Hypothesis | None:
-    """A hypothesis with the most promising of some candidates; None where none can stand beside it."""
-    others = set(range(len(search.space.candidates))) - set(some)
-    return next(iter(search.additions(hypothesis, 1, others)), None)
+def _beside_zero(search: Search, base: Hypothesis, zero: int, laws: Collection[int]) -> Hypothesis | None:
+    """The likeliest law beside a zero of any size: one that does nothing alone may be large beside a trend."""
+    others = set(range(len(search.space.candidates))) - set(laws)
+    sizes = range(len(search.problem.sizes))
+    beside = (search.evaluated((*base.chosen, SelectedEffect(zero, size)), base) for size in sizes)
+    return max(
+        (each for zeroed in beside for each in search.additions(zeroed, 1, others)), key=by_posterior, default=None
+    )
 
 
 def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequence[Rival]]) -> dict[int, Array]:
