@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.laws_of_one_joint import doubts_of_laws
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL
 from tests.diagnosis.planted import one_run, recorded
+from tests.inference.test_search import SINGLE, search_on, space_of, with_curve
 from tests.physics.scenes import arm_named
 from tests.seeds import seeds
 
@@ -79,3 +81,10 @@ def test_a_trend_beside_a_wave_is_told_as_one_or_it_is_said_that_it_may_be_one(s
     assert ("gear_ratio", "joint 3") in told
     once = [e for e in found if e.effect == "gear_eccentricity" and e.parameters[2].value == 1.0]
     assert all(e.named_as != "effect" for e in once)
+
+
+def test_a_free_curve_gains_no_doubt_beside_a_law() -> None:
+    search = search_on(space_of(with_curve()), {0: 0.3, 1: -0.2, 2: 0.25, 3: 0.2, 6: 0.3})
+    best = search.best()
+    assert best.candidates == {SINGLE, 6}
+    assert doubts_of_laws(search, best, {}).keys() == {6}

@@ -74,7 +74,7 @@ def _beside_zero(search: Search, base: Hypothesis, zero: int, laws: Collection[i
 
 
 def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequence[Rival]]) -> dict[int, Array]:
-    """What the covariance of a law's values gains where another law of its joint could be a third one.
+    """What the covariance of a law's values gains where another law of its joint could be a third one; of no curve.
 
     Args:
         search: on the problem.
@@ -85,7 +85,7 @@ def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequen
         By candidate, (k, k) in SI units: as much as its interval needs to reach the value that it has beside the rival.
     """
     scale, gained = search.problem.scale, {}
-    for number in best.candidates:
+    for number in (n for n in best.candidates if not search.candidate(n).is_curve):
         columns = search.candidate(number).columns
         told, extra = best.means(columns), np.zeros((len(columns), len(columns)))
         for rival in _unsettled_beside(search, best, number, rivals):
