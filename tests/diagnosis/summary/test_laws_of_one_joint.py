@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import functools
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.summary.laws_of_one_joint import doubts_of_laws
+from armscope.diagnosis.summary.laws_of_one_joint import curve_of_waves, doubts_of_laws
+from armscope.diagnosis.summary.rivals import discriminability, too_close
+from armscope.inference.constants import PRIORS
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import INTERVAL
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL
 from tests.diagnosis.planted import one_run, recorded
 from tests.inference.test_search import SINGLE, search_on, space_of, with_curve
 from tests.physics.scenes import arm_named
@@ -88,3 +92,30 @@ def test_a_free_curve_gains_no_doubt_beside_a_law() -> None:
     best = search.best()
     assert best.candidates == {SINGLE, 6}
     assert doubts_of_laws(search, best, {}).keys() == {6}
+
+
+@pytest.mark.parametrize(
+    ("lead", "waves", "told"),
+    [
+        (PRIORS.excess_special_case_nats, 2, True),
+        (PRIORS.excess_special_case_nats + 0.9 * INDISTINGUISHABLE_NATS, 2, True),
+        (PRIORS.excess_special_case_nats + 1.1 * INDISTINGUISHABLE_NATS, 2, False),
+        (INDISTINGUISHABLE_NATS, 1, False),
+    ],
+)
+def test_waves_that_lead_by_what_they_were_spared_may_be_a_free_curve(lead: float, waves: int, told: bool) -> None:
+    """A hose bends smoothly, too, and two waves of any phase say most of that."""
+    pair = frozenset({0, 1})
+    wave = SimpleNamespace(as_one=frozenset(), competes=True, columns=(0, 1))
+    curve = SimpleNamespace(as_one=pair, competes=True, columns=tuple(range(12)))
+    best = SimpleNamespace(candidates=frozenset(range(waves)), log_posterior=lead, noise=1.0, rss=0.0)
+    other = SimpleNamespace(log_posterior=0.0, rss=0.0)
+    search: Any = SimpleNamespace(
+        space=SimpleNamespace(candidates=[wave, wave, curve]),
+        without=lambda parent, gone: (parent, frozenset(gone)),
+        additions=lambda base, count, without: [other] if base[1] == pair and without == {0, 1} else [],
+    )
+    found = curve_of_waves(search, best, 0)  # type: ignore[arg-type]
+    assert [rival.candidate for rival in found] == [curve] * told
+    apart = [discriminability(best, rival.hypothesis, wave, rival.candidate) for rival in found]  # type: ignore[arg-type]
+    assert too_close(wave, found, apart) == [curve] * told  # type: ignore[arg-type]

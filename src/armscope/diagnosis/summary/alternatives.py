@@ -14,7 +14,7 @@ from armscope.diagnosis.curve_shapes import DRIVE, rest_of
 from armscope.diagnosis.held_out_worth import held_out_errors
 from armscope.diagnosis.naming import named
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.laws_of_one_joint import laws_beside_zero, stand_together
+from armscope.diagnosis.summary.laws_of_one_joint import curve_of_waves, laws_beside_zero, stand_together
 from armscope.diagnosis.summary.rivals import Rival
 from armscope.inference.confidence_set import confidence_set
 from armscope.inference.constants import BUDGET, PRIORS
@@ -65,7 +65,7 @@ def _of_one(search: Search, best: Hypothesis, number: int, refused: _Refused) ->
     explained_anyway = search.in_background(best, number)
     paid = _price_of_curve(search, candidate) if rest and candidate.kind == DRIVE else 0.0
     rivals = _in_place_of(search, best, number, rest, paid, refused)
-    rivals += laws_beside_zero(search, best, number)
+    rivals += [*laws_beside_zero(search, best, number), *curve_of_waves(search, best, number)]
     if rest and not explained_anyway:
         alone = _in_place_of(search, best, number, [], 0.0, refused)
         rivals += [rival for rival in alone if not rival.candidate.is_curve]

@@ -13,6 +13,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
+from armscope.inference.constants import PRIORS
 from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
@@ -60,6 +61,33 @@ def laws_beside_zero(search: Search, best: Hypothesis, number: int) -> list[Riva
                 gap = best.log_posterior - other.log_posterior
                 if gap <= NAMING.listed_nats_of_special_cases:
                     found.append(Rival(gap, search.candidate(other.chosen[-1].candidate), other, near=True))
+    return found
+
+
+def curve_of_waves(search: Search, best: Hypothesis, number: int) -> list[Rival]:
+    """The free curve in place of all waves of a gear, if these lead by no more than they were spared as one cause.
+
+    A hose or a cable bends smoothly, too: two waves of any size and phase say most of that.
+
+    Args:
+        search: on the problem.
+        best: the chosen hypothesis.
+        number: of a wave.
+
+    Returns:
+        The curve, or none.
+    """
+    found = []
+    for at, curve in enumerate(search.space.candidates):
+        waves = curve.as_one & best.candidates
+        if not curve.competes or number not in waves or len(waves) < 2:
+            continue
+        others = set(range(len(search.space.candidates))) - {at}
+        for other in search.additions(search.without(best, waves), 1, others):
+            spared = PRIORS.excess_special_case_nats * (len(waves) - 1)
+            gap = best.log_posterior - other.log_posterior
+            if gap - spared < INDISTINGUISHABLE_NATS:
+                found.append(Rival(gap, curve, other, near=True, spared=spared))
     return found
 
 

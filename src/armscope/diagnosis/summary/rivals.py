@@ -19,6 +19,7 @@ class Rival(NamedTuple):
         near: whether its evidence is near enough for it to be listed whatever other rows say.
         held: columns that are zero in it, though a background has them.
         excluded: whether rows that took no part exclude it.
+        spared: nats that the effect did not pay, as one cause with others: by these it is no farther.
     """
 
     gap: float
@@ -27,6 +28,7 @@ class Rival(NamedTuple):
     near: bool
     held: tuple[int, ...] = ()
     excluded: bool | None = None
+    spared: float = 0.0
 
     def in_background_of(self, effect: Candidate) -> bool:
         """Whether an effect and this are two of the many that one background holds."""
@@ -72,5 +74,7 @@ def too_close(effect: Candidate, found: Sequence[Rival], apart: Sequence[float])
         rival.candidate
         for rival, nats in zip(found, apart, strict=True)
         if rival.near
-        and (nats < INDISTINGUISHABLE_NATS or (rival.excluded is False and rival.in_background_of(effect)))
+        and (
+            nats - rival.spared < INDISTINGUISHABLE_NATS or (rival.excluded is False and rival.in_background_of(effect))
+        )
     ]
