@@ -195,3 +195,21 @@ def test_a_share_above_the_whole_is_told_as_what_others_cancel() -> None:
     told = headline(case.verdict)
     assert "– more than the whole squared error, as others cancel a part of it" in told
     assert "over 100 %" not in told
+
+
+def test_waves_of_one_gear_are_told_together_as_far_as_both_are_sure() -> None:
+    once, twice = (
+        found(
+            "gear_eccentricity",
+            "joint 2",
+            Parameter("amplitude", "rad", size, 1e-5),
+            Parameter("phase", "rad", 0.4, 0.1),
+            Parameter("per_turn", "", n, 0.0),
+        )
+        for size, n in ((4.5e-4, 1.0), (4e-4, 2.0))
+    )
+    said = "the angle of joint 2 swings by ±450 µrad once per turn and by ±400 µrad twice per turn"
+    assert cause_in_words("transmission", (once, twice)) == said
+    unsure = replace(twice, named_as="region", title="gear eccentricity at joint 2 or gear ratio at joint 2")
+    assert cause_in_words("transmission", (once, unsure)).endswith("once per turn (one more at the same place)")
+    assert cause_in_words("transmission", (unsure, once)).startswith("either ")

@@ -103,11 +103,24 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
         none_stands_out = GROWS.format(small.worst)
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
-    beside = also_out(family, told[0], members)
+    waves = _further_waves(told[0], members)
+    beside = also_out(family, told[0], [effect for effect in members if effect not in waves])
     if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
         return _with_others(f"{IN_ALL[family]}, most of all: {phrase(told[0])}", beside)
     beside += [BESIDE.get(family, _OTHERS)] if small else []
-    return _with_others(phrase(told[0]), beside)
+    return _with_others(" and ".join([phrase(told[0]), *(_size_of_wave(wave) for wave in waves)]), beside)
+
+
+def _further_waves(told: FoundEffect, members: Sequence[FoundEffect]) -> list[FoundEffect]:
+    """Those of the same part as a wave that is told, as sure as it is: a gear off its centre may be oval, too."""
+    alike = [m for m in members if m is not told and (m.effect, m.location) == (told.effect, told.location)]
+    is_wave = told.named_as == "effect" and bool(_size_of_wave(told))
+    return [m for m in alike if is_wave and m.named_as == "effect" and not (m.minor or m.rarely_chosen)]
+
+
+def _size_of_wave(effect: FoundEffect) -> str:
+    """ "by ±0.3 mrad twice per turn"; nothing of what is no wave."""
+    return exact_phrase(effect).partition(" swings ")[2]
 
 
 def _with_others(clause: str, beside: Sequence[str]) -> str:
