@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 from armscope.physics.registry import effect_named
-from armscope.verdict.doubts import SIZE_OPEN, doubt_of, unless_confirmed
+from armscope.verdict.doubts import doubt_of, unless_confirmed
 from armscope.verdict.effects import Alternative, Parameter
+from armscope.verdict.family_cures import CONFIRM_FIRST
 from tests.report import verdicts
 
 LINK = Alternative("link_geometry", "link 6", "geometric", 1.5, "constant", 1.5, False)
@@ -53,10 +54,10 @@ def test_a_size_that_may_be_zero_is_confirmed_before_anything_is_replaced() -> N
     bearing = verdicts.found("bearing_compliance", "joint 6", size, named_as="region", title="elastic, around joint 6")
     doubt = doubt_of(bearing)
     assert doubt
-    assert doubt.instruction.startswith(f"{SIZE_OPEN} If the bearing of joint 6")
+    assert doubt.instruction.startswith(f"{CONFIRM_FIRST} If the bearing of joint 6")
     against = doubt_of(replace(bearing, alternatives=(LINK,)))
     assert against
-    assert against.instruction.startswith(f"{SIZE_OPEN} First find out which it is: ")
+    assert against.instruction.startswith(f"{CONFIRM_FIRST} First find out which it is: ")
     sure = doubt_of(replace(bearing, parameters=(replace(size, stderr=1e-6),)))
     assert sure
-    assert SIZE_OPEN not in sure.instruction
+    assert CONFIRM_FIRST not in sure.instruction

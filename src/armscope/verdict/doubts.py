@@ -8,6 +8,7 @@ from armscope.core.words import enumerated
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
+from armscope.verdict.family_cures import CONFIRM_FIRST
 from armscope.verdict.sentences import exact_phrase
 from armscope.verdict.unsettled import kind_and_place
 from armscope.verdict.wording import effect_in_words, plain
@@ -19,7 +20,6 @@ MAY_BE_READ_SO = (
     "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "
     "instrument's own error, and such commands would move a good arm wrongly."
 )
-SIZE_OPEN = "Confirm it first: these rows do not determine its size (each interval holds zero)."
 NOT_THE_ARMS = ("instrument", "drift")
 """Families of what is read wrongly, or stood elsewhere: the instrument, its target, the set-up."""
 
@@ -64,7 +64,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     _, _, region = effect.title.partition(", ")
     first = f"First find out which it is: {which}{how}."
     if effect.size_open:
-        first = f"{SIZE_OPEN} {first}" if rivals else SIZE_OPEN
+        first = f"{CONFIRM_FIRST} {first}" if rivals else CONFIRM_FIRST
     return Doubt(
         what=kind_and_place(effect),
         place=enumerated(places, "or") if _either(effect) or not region else region,

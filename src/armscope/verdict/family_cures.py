@@ -47,7 +47,7 @@ SCALE_ALL = (
     "origins of a URDF):"
 )
 ALSO_NAMED = "What is named besides comes on top, each by its own formula."
-CONFIRM_FIRST = "Confirm it first: these rows do not determine its size."
+CONFIRM_FIRST = "Confirm it first: these rows do not determine its size (each interval holds zero)."
 OVER_TIME = "What follows the time moved meanwhile: fasten it and measure again; its curve corrects nothing later."
 
 

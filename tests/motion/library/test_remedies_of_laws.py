@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -14,7 +14,19 @@ from armscope.motion.library import remedies_of_laws
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.remedies import Fitted
 from armscope.verdict.effects import Parameter
-from tests.motion.cured import JOINT, STATED, Motion, Torque, as_it_is, at_joint, diagnosed, left, told
+from tests.motion.cured import (
+    JOINT,
+    STATED,
+    Motion,
+    Torque,
+    as_it_is,
+    at_joint,
+    diagnosed,
+    left,
+    moved,
+    simulated,
+    told,
+)
 from tests.motion.moving import robot
 from tests.seeds import seeds
 
@@ -140,6 +152,8 @@ def waves(cure: str) -> Torque:
     return at_joint(lambda q, v, a, T: sine * np.sin(count * q) + cosine * np.cos(count * q))
 
 
+STATED_AT_C = 25.0
+"""At which the friction of these arms is as stated."""
 RUBS = between("speed", lambda n, s: n[0] * np.sign(s) + n[1] * s)
 TURNS, TURNS_BEFORE = (between("acceleration", lambda n, a: n[0] * a, last) for last in (3, 2))
 AT, FROM = f"joint {JOINT + 1}", "joint 3 from joint 2"
@@ -208,6 +222,24 @@ def test_dry_and_viscous_friction_that_both_fall_with_warmth_are_two_causes(seed
     both = [with_warmth(cause.cure) for cause in found.values()]
     cured = lambda motion, torque: both[1](motion, both[0](motion, torque))
     assert left((STATED, planted), (STATED, cured, as_it_is), seed) < 0.03
+
+
+@pytest.mark.parametrize("seed", seeds(11, 14))
+def test_an_arm_that_is_only_warmed_up_is_farther_from_what_is_stated_and_the_card_says_so(seed: int) -> None:
+    case = CASES["warm"]
+    (cause,) = diagnosed(STATED, case.planted, seed, True)
+    assert "To warm the arm up first helps only with friction that was fitted as warm." in cause.cure
+
+    motion = moved(seed, 7)
+    warm = replace(motion, warmth=np.full_like(motion.warmth, motion.warmth.max()))
+    cold = replace(motion, warmth=np.full_like(motion.warmth, STATED_AT_C))
+
+    def missed(at: Motion, law: Torque) -> float:
+        stated = simulated(STATED, at)
+        return float(np.linalg.norm(case.planted(at, stated) - law(at, stated)))
+
+    assert missed(cold, as_it_is) < missed(motion, as_it_is) < missed(warm, as_it_is)
+    assert missed(warm, with_warmth(cause.cure)) < 0.05 * missed(warm, as_it_is)
 
 
 def test_friction_near_rest_that_is_no_bell_is_written_out_with_both_its_terms() -> None:

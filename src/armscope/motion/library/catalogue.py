@@ -99,7 +99,7 @@ TEMPERATURE_FRICTION = Cause(
     FRICTION,
     "Friction changes as the gear warms up: with the temperature, or where none is recorded while the arm runs.",
     "Repeat one motion cold and warm.",
-    "Let friction follow the temperature, or warm the arm up first.",
+    "Let friction follow the temperature.",
     clause=clauses.warming_clause,
     remedy=remedies_of_laws.with_warmth,
     each_form=True,  # grease thins, and a seal's dry friction falls as well

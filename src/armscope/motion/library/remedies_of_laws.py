@@ -37,6 +37,9 @@ def curve_of_speed(fitted: Fitted) -> str:
     return f"{fitted.in_general}: beside its dry and viscous friction {told}, in {bent.unit.partition(' s')[0]}, SI."
 
 
+WARM_IS_NOT_AS_STATED = "To warm the arm up first helps only with friction that was fitted as warm."
+
+
 def with_warmth(fitted: Fitted) -> str:
     """Friction that follows the temperature, or the time that the arm has run, from the middle of what was recorded."""
     slope, *constant = fitted.parameters
@@ -48,7 +51,8 @@ def with_warmth(fitted: Fitted) -> str:
     counted = " Minutes are counted over the runs as they stand in the table, without pauses between them." * running
     what, follows = ("dry", "sign of the speed") if dry else ("viscous", "speed")
     known = "stated" if constant else "fitted"
-    return f"{fitted.in_general}: {what} friction as {known} and {told}, times the {follows}.{counted}"
+    law = f"{what} friction as {known} and {told}, times the {follows}"
+    return f"{fitted.in_general}: {law}. {WARM_IS_NOT_AS_STATED}{counted}"
 
 
 def rubbing(fitted: Fitted) -> str:
