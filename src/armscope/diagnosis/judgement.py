@@ -51,6 +51,7 @@ from armscope.inference.shapley import shares
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
+from armscope.verdict.not_yet import curing_only_what_helps
 from armscope.verdict.schema import (
     Answer,
     Background,
@@ -59,13 +60,7 @@ from armscope.verdict.schema import (
     Unexplained,
     WaterfallStep,
 )
-from armscope.verdict.sentences import makes_worse
 
-NOT_YET = (
-    "Change nothing and correct no commands yet: the model with these names meets the rows worse than base and tool "
-    "alone. Confirm each by itself at the arm, or measure more rows."
-)
-"""In place of every cause's cure, where the whole model makes the error larger."""
 UNTESTED = HeldOut(float("nan"), float("nan"))
 """Where nothing was held out."""
 
@@ -129,8 +124,8 @@ def judge(
         notices=(*state.notices, *_carefully(state), *carefully, *told_of_labels(of_rows["suspects"])),
     )
     verdict = with_importance(draft, with_weight)
-    told = tuple(replace(c, cure=NOT_YET) for c in verdict.causes) if makes_worse(verdict) else verdict.causes
-    return replace(verdict, causes=told, waterfall=_with_weights(waterfall, named, verdict.effects))
+    verdict = replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
+    return curing_only_what_helps(verdict)
 
 
 def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> SummaryBasis:

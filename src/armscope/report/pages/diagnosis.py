@@ -16,6 +16,7 @@ from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
 from armscope.report.sectioning import write_sections
+from armscope.report.sections.effect_cards import title_of
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
@@ -35,11 +36,12 @@ from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
+from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.promise import promised
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
-from armscope.verdict.wording import millimetres, percent, places_in_words
+from armscope.verdict.wording import capitalised, main_and_minor, millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
 
 ANSWERS = {
@@ -53,10 +55,7 @@ WARNINGS = (
     "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
-WORSE = (
-    "Rows that took no part in the fit are predicted worse with this model than without it. The errors expected below "
-    "are those of the fitted rows: confirm each cause, or measure more rows, before anything is changed."
-)
+WORSE = f"Rows that took no part in the fit are predicted worse with this model than without it. {NOT_YET}"
 REPORT, ORDER = "report.html", "work-order.html"
 ZEROS, ROWS, ORIGINS, UR = "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv", "ur_kinematics.yaml"
 
@@ -72,7 +71,31 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
 
 
 def write_work_order(subject: Subject, folder: Path) -> None:
-    """The work order as a page, and its numbers as tables."""
+    """The work order as a page, and its numbers as tables; none of a model that makes the error larger."""
+    verdict, another = subject.verdict, another_model(subject.verdict)
+    tasks = () if another or makes_worse(verdict) else subject.order.tasks
+    content = {
+        **_about(verdict),
+        "order": subject.order,
+        "before": rms(subject.worth.before),
+        "another": another,
+        "left": min((task.then_mm for task in tasks if not task.instead), default=None),
+        "instead": min((task.then_mm for task in tasks if task.instead), default=None),
+        "mm": lambda mm: millimetres(subject.expected(mm)),
+        "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
+        "differ": from_part_to_part(verdict),
+        "background": percent(verdict.background.share),
+        "to_confirm": [(capitalised(title_of(e)), e.confirm) for e in main_and_minor(verdict.effects)[0]],
+        "wrongly_stated": wrongly_stated(verdict),
+        "next_poses": verdict.next_poses.checked if verdict.next_poses and verdict.next_poses.settle else "",
+        "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
+        **({} if makes_worse(verdict) else _write_numbers(subject, folder)),
+    }
+    write_text(folder / ORDER, render_page("work_order.html.j2", **content))
+
+
+def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
+    """Zeros and corrected rows as files, and what the page tells of them."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
     kinematics = ur_kinematics(verdict)
     named = zeros["cause"] == "named"
@@ -86,21 +109,9 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         write_table(folder / name, table)
     if kinematics is not None:
         write_text(folder / UR, f"# {ZEROS_IN_IT}\n{yaml_text(kinematics)}")
-    dh = verdict.model.arm.description.dh
-    another = another_model(verdict)
-    tasks, by_calibration = () if another else subject.order.tasks, subject.order.by_calibration
+    dh, by_calibration = verdict.model.arm.description.dh, subject.order.by_calibration
     heads, cells = corrected_table(verdict)
-    content = {
-        **_about(verdict),
-        "order": subject.order,
-        "before": rms(subject.worth.before),
-        "another": another,
-        "left": min((task.then_mm for task in tasks if not task.instead), default=None),
-        "instead": min((task.then_mm for task in tasks if task.instead), default=None),
-        "mm": lambda mm: millimetres(subject.expected(mm)),
-        "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
-        "differ": from_part_to_part(verdict),
-        "background": percent(verdict.background.share),
+    return {
         "dh": [] if rows is None else [*zip(cells, rows["step"].tolist(), strict=True)],
         "dh_heads": heads,
         "skewed": "β" in " ".join(heads),
@@ -108,13 +119,9 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
-        "wrongly_stated": wrongly_stated(verdict),
-        "next_poses": verdict.next_poses.checked if verdict.next_poses and verdict.next_poses.settle else "",
-        "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
         "kinematics": f"{UR}: {ZEROS_IN_IT}" if kinematics else "",
         "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
     }
-    write_text(folder / ORDER, render_page("work_order.html.j2", **content))
 
 
 def steps_of_rows(rows: pd.DataFrame, order: WorkOrder) -> list[str]:

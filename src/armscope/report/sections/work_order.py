@@ -10,7 +10,8 @@ from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.importance import from_part_to_part
-from armscope.verdict.sentences import holds
+from armscope.verdict.not_yet import NOT_YET
+from armscope.verdict.sentences import holds, makes_worse
 from armscope.verdict.wording import millimetres
 
 SHOWN = 6
@@ -19,6 +20,7 @@ SHOWN = 6
 
 def _context(subject: Subject) -> dict[str, Any]:
     return {
+        "not_yet": NOT_YET if makes_worse(subject.verdict) else "",
         "order": subject.order,
         "shown": SHOWN if len(subject.order.tasks) > SHOWN + 1 else len(subject.order.tasks),
         "mm": lambda mm: millimetres(subject.expected(mm)),

@@ -1,0 +1,39 @@
+"""A model that makes the error larger orders nothing, on no page and in no file."""
+
+from __future__ import annotations
+
+import pytest
+
+from armscope.report.pages.diagnosis import write_report
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.not_yet import NOT_YET, curing_only_what_helps
+from armscope.verdict.schema import HeldOut
+
+from ..report import verdicts
+
+NUMBERS = "zero_offsets.csv", "corrected_dh.csv"
+
+
+def diagnosed(after: float) -> Diagnosis:
+    effects = (
+        verdicts.compliance(),
+        verdicts.found("joint_offset", "joint 2", verdicts.Parameter("offset", "rad", 1e-3, 1e-5)),
+    )
+    return verdicts.case(effects=effects, held_out=HeldOut(1.3, after)).verdict
+
+
+@pytest.mark.parametrize(("after", "orders"), [(0.1, True), (6.8, False)])
+def test_only_a_model_that_helps_orders_anything(tmp_path, after, orders):
+    verdict = diagnosed(after)
+    told = curing_only_what_helps(verdict)
+    assert (told is verdict) == orders
+    assert all((effect.cure == NOT_YET) != orders for effect in told.effects)
+    report = write_report(verdict, tmp_path).read_text().replace("\u00a0", " ")
+    order = (tmp_path / "work-order.html").read_text()
+    assert [(tmp_path / name).exists() for name in NUMBERS] == [orders, orders]
+    assert ("zero_offsets.csv" in order) == orders
+    assert ("<b>Do:</b>" in order) == orders
+    assert (NOT_YET in order) != orders
+    assert (NOT_YET in report) != orders
+    if not orders:
+        assert all(effect.confirm in order for effect in verdict.effects), "what to confirm stands there all the same"
