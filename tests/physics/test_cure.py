@@ -290,5 +290,10 @@ def test_a_tool_that_moved_is_cured_by_the_moved_tool_point() -> None:
 
 
 def test_every_effect_has_a_cure_that_was_tried() -> None:
-    elsewhere = {"payload_change", "thermal_bow", "thermal_zero"}  # tests of what they are named after
+    elsewhere = {
+        "compliance_change",
+        "payload_change",
+        "thermal_bow",
+        "thermal_zero",
+    }  # tests of what they are named after
     assert {effect.name for effect in EFFECTS} == {*PLANTED, *elsewhere, "loose_target", "payload_error", "tool_shift"}

@@ -203,6 +203,11 @@ class ScatterRules(Constants):
         "judgement: the tool hardly sees it turn",
         unit="rad",
     )
+    shares_of_size: tuple[float, ...] = constant(
+        (0.5, 0.7, 1.0, 1.4, 2.0),
+        "of the scatter found that compete where it may follow a law",
+        "judgement: steps of the root of two, to half and double",
+    )
     strays: tuple[float, ...] = constant(
         (0.003, 0.03, 0.3), "share of bad shots that competes", "judgement: hardly any, some, as many as a table bears"
     )

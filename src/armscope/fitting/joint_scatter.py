@@ -135,6 +135,41 @@ def log_likelihood(residuals: Array, moved: Array, found: Sequence[Scattered], l
     return _likelihood(residuals, moved, rho, least_noise)[0]
 
 
+def gain_of_law(
+    residuals: Array, moved: Array, found: Sequence[Scattered], motor: int, along: Array, least_noise: float
+) -> tuple[float, float]:
+    """How much better rows scatter along something else than along a joint's turning alike in every row.
+
+    Args:
+        residuals: (N, 3) mm, base axes.
+        moved: (m, N, 3) from `motor_jacobians`.
+        found: what scatters.
+        motor: whose scatter it would be in place of, from 1.
+        along: (N, 3) mm by which one unit of it moves the tool.
+        least_noise: mm.
+
+    Returns:
+        Nats, each at its best size, and that size in those units, 1 sigma.
+    """
+    reach = [float(np.sqrt(np.mean(each**2))) for each in (moved[motor - 1], along)]
+    if not reach[1] > 0:
+        return -np.inf, 0.0
+    by_law = moved.copy()
+    by_law[motor - 1] = along * (reach[0] / reach[1])
+
+    def best(columns: Array) -> tuple[float, float]:
+        tried = [
+            [replace(each, size=each.size * (share if each.motor == motor else 1.0)) for each in found]
+            for share in SCATTER.shares_of_size
+        ]
+        fits = [log_likelihood(residuals, columns, each, least_noise) for each in tried]
+        at = int(np.argmax(fits))
+        return fits[at], next(each.size for each in tried[at] if each.motor == motor)
+
+    (alike, _), (otherwise, size) = best(moved), best(by_law)
+    return otherwise - alike, size * reach[0] / reach[1]
+
+
 def _evidence(found: Sequence[Scattered]) -> float:
     return sum(each.evidence for each in found)
 

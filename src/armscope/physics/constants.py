@@ -84,6 +84,11 @@ class PlausibleSizes(Constants):
         "judgement: strain wave gears wind up by a milliradian at their rated torque, soft belts by several",
         unit="rad",
     )
+    softening_share: float = constant(
+        0.3,
+        "of a drive's turn, by which it turns further when it is warm or has worked loose",
+        "judgement: belts and rubber soften by several percent per kelvin, steel by less than a thousandth",
+    )
     soft_share: float = constant(
         0.1,
         "of a drive's turn, by which it turns further since it is softer under small loads",

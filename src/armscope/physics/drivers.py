@@ -139,6 +139,11 @@ def _held(scene: LoadedArm, source: Driver, low: float, high: float) -> Array:
     return np.clip(scene.driver(source), low, high)
 
 
+def _both(scene: LoadedArm, one: Driver, other: Driver) -> Array:
+    """The product of two drivers: a load that acts from some moment on, say."""
+    return scene.driver(one) * scene.driver(other)
+
+
 def cubic_spline(at: Array, centre: float, width: float) -> Array:
     """Cubic B-spline: a smooth bump about ``centre``, zero beyond two widths.
 
@@ -173,6 +178,7 @@ KINDS: dict[str, DriverKind] = {
     "lost motion": DriverKind(_lost_motion, needs="approach"),
     "spline": DriverKind(_spline),
     "held": DriverKind(_held),
+    "both": DriverKind(_both),
     **LOADS,
     **RECORDED,
     **BARS,

@@ -19,6 +19,7 @@ from armscope.physics.form_constants import FORM
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.placing import moving_joints, varies, varying_columns
 from armscope.physics.recorded_drivers import REFERENCE_TEMPERATURE_C, SECONDS_PER_HOUR
+from armscope.physics.scatter_words import SCATTER_CLAUSES, SCATTER_LABELS
 from armscope.physics.scene import Scene
 from armscope.physics.transmission import BACKLASH, GEAR_RATIO, wave_terms
 from armscope.recordings import Recordings
@@ -267,18 +268,11 @@ UNKNOWN = Effect(
         instruction="Find what it follows; until then store its curve as a correction table.",
     ),
     clauses=(
-        "{location} scatters by {scatter}: play of {play}, if the rows stand in the order in which they were measured",
-        "{location} scatters by {scatter}: after motion to one side and to the other it stands {overrun} apart, ahead "
-        "of its readings, if rows were measured in this order",
-        "{location} scatters by {scatter} for a reason that no single column of the table tells",
+        *SCATTER_CLAUSES,
         "something unexplained at {location} follows the {driver}, by up to {reaches}",
         "something unexplained at {location} follows the {driver}",
     ),
-    labels={
-        "scatter": "scatter (1 sigma)",
-        "play": "play, by the order of rows",
-        "overrun": "apart after motion to either side, by the order of rows",
-    },
+    labels=SCATTER_LABELS,
     atlas=_column,
     several=True,
 )

@@ -11,6 +11,7 @@ from importlib.metadata import EntryPoint, entry_points
 
 from armscope.core.inputs import InputError
 from armscope.physics import (
+    compliance_change,
     drift,
     elastic,
     freeform,
@@ -37,6 +38,7 @@ EFFECTS: tuple[Effect, ...] = (
     *geometric.EFFECTS,
     *transmission.EFFECTS,
     *elastic.EFFECTS,
+    *compliance_change.EFFECTS,
     *tilting.EFFECTS,
     *thermal.EFFECTS,
     *drift.EFFECTS,

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from armscope.core.words import enumerated, uncapitalised
 from armscope.physics.clause import Number, Told, say
+from armscope.physics.compliance_change import COMPLIANCE_CHANGE
+from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.diagnosis import Diagnosis
@@ -103,24 +105,26 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
         none_stands_out = GROWS.format(small.worst)
     if not told or (small and _is_next_to_nothing(told[0], small)):
         return none_stands_out
-    waves = _further_waves(told[0], members)
-    beside = also_out(family, told[0], [effect for effect in members if effect not in waves])
+    more = _goes_on(told[0], members)
+    beside = also_out(family, told[0], [effect for effect in members if effect not in more])
     if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
         return _with_others(f"{IN_ALL[family]}, most of all: {phrase(told[0])}", beside)
     beside += [BESIDE.get(family, _OTHERS)] if small else []
-    return _with_others(" and ".join([phrase(told[0]), *(_size_of_wave(wave) for wave in waves)]), beside)
+    return _with_others(" and ".join([phrase(told[0]), *map(_how, more)]), beside)
 
 
-def _further_waves(told: FoundEffect, members: Sequence[FoundEffect]) -> list[FoundEffect]:
-    """Those of the same part as a wave that is told, as sure as it is: a gear off its centre may be oval, too."""
-    alike = [m for m in members if m is not told and (m.effect, m.location) == (told.effect, told.location)]
-    is_wave = told.named_as == "effect" and bool(_size_of_wave(told))
-    return [m for m in alike if is_wave and m.named_as == "effect" and not (m.minor or m.rarely_chosen)]
+def _goes_on(told: FoundEffect, members: Sequence[FoundEffect]) -> list[FoundEffect]:
+    """Those that the same clause tells, as sure as it is: an eccentric gear may be oval, too."""
+    more = COMPLIANCE_CHANGE.name if told.effect == JOINT_COMPLIANCE.name else told.effect
+    there = [m for m in members if m is not told and (m.effect, m.location) == (more, told.location)]
+    certain = told.named_as == "effect" and bool(_how(told))
+    return [m for m in there if certain and _how(m) and m.named_as == "effect" and not (m.minor or m.rarely_chosen)]
 
 
-def _size_of_wave(effect: FoundEffect) -> str:
-    """ "by ±0.3 mrad twice per turn"; nothing of what is no wave."""
-    return exact_phrase(effect).partition(" swings ")[2]
+def _how(effect: FoundEffect) -> str:
+    """ "by ±0.3 mrad twice per turn", "by 3 µrad per N m more from row 90 on"; "" of what neither swings nor gives."""
+    said = exact_phrase(effect)
+    return said.partition(" swings ")[2] or said.partition(" gives way ")[2]
 
 
 def _with_others(clause: str, beside: Sequence[str]) -> str:

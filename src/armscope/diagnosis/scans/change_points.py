@@ -1,4 +1,4 @@
-"""Moments at which base, tool or a joint's zero jumped, found by scanning along the rows of a run."""
+"""Moments at which base, tool, a joint's zero or what its drive gives way by changed, found by scanning along a run."""
 
 from __future__ import annotations
 
@@ -18,29 +18,48 @@ from armscope.inference.additions import block_scores
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.linear_algebra import ColumnBlocks
 from armscope.measurement.whitening import WhitenedPosture
-from armscope.physics.drift import base_shift, tool_shift
-from armscope.physics.effect import Placed, Term
+from armscope.physics.compliance_change import COMPLIANCE_CHANGE, compliance_change, plausible_change
+from armscope.physics.drift import BASE_SHIFT, TOOL_SHIFT, base_shift, tool_shift
+from armscope.physics.effect import Driver, Placed, Term
+from armscope.physics.elastic import loaded_joints
 from armscope.physics.placing import moving_joints
-from armscope.physics.zero_shift import zero_shift
+from armscope.physics.zero_shift import ZERO_SHIFT, zero_shift
 from armscope.recordings import Recordings
 
-BUILDS = {"base": base_shift, "tool": tool_shift}
+SET_UP = {"base": base_shift, "tool": tool_shift}
+At = tuple[str, str]
+"""Effect and location of what may have jumped."""
 
 
 def jumps(context: ScanContext, given: Sequence[Hypothesis]) -> Iterator[Placed]:
-    """The likeliest moment at which base, tool and each joint's zero jumped, if promising, given each hypothesis."""
-    zeros, beside = [f"joint {j}" for j in moving_joints(context.recordings)], ModelRows(context, columns_of(given))
-    for locations in (["base"], ["tool"], zeros):
-        yield from _jumps_at(beside, given, locations)
+    """The likeliest moment at which anything of `may_jump` did, if promising, given each hypothesis."""
+    beside = ModelRows(context, columns_of(given))
+    for places in may_jump(context):
+        yield from _jumps_at(beside, given, places)
 
 
-def _jumps_at(beside: ModelRows, given: Sequence[Hypothesis], locations: Sequence[str]) -> Iterator[Placed]:
-    """The same at some locations, any of which may have jumped: all pay for all of their moments."""
+def may_jump(context: ScanContext) -> list[list[At]]:
+    """What may have jumped; of a list's places any one may have."""
+    table, arm = context.recordings, context.model.arm
+    known = arm.has_masses or table.torque is not None
+    loaded = loaded_joints(context.scene) if known else []
+    return [
+        [(BASE_SHIFT.name, "base")],
+        [(TOOL_SHIFT.name, "tool")],
+        [(ZERO_SHIFT.name, f"joint {j}") for j in moving_joints(table)],
+        [(COMPLIANCE_CHANGE.name, f"joint {j}") for j in loaded],
+    ]
+
+
+def _jumps_at(beside: ModelRows, given: Sequence[Hypothesis], locations: Sequence[At]) -> Iterator[Placed]:
+    """The same at some places, any of which may have jumped: all pay for all of their moments."""
     context, inside = beside.context, beside.inside
     pieces = list(pieces_of(context.recordings, SCANS.nearest_edge))
+    if not locations:
+        return
     tried = len(locations) * sum(len(cuts) for _, cuts in pieces)
     builds = {location: _jump_of(context, location) for location in locations}
-    best: dict[tuple[str, int], tuple[float, int]] = {}
+    best: dict[tuple[At, int], tuple[float, int]] = {}
     for rows, cuts in pieces:
         terms = {location: build(int(rows[0]), 1).terms for location, build in builds.items()}
         sums = step_sums(beside, rows, cuts, [each for of_one in terms.values() for each in of_one])
@@ -59,15 +78,19 @@ def _jumps_at(beside: ModelRows, given: Sequence[Hypothesis], locations: Sequenc
             yield builds[location](row, tried)
 
 
-def _jump_of(context: ScanContext, location: str) -> Callable[[int, int], Placed]:
-    """What jumps at a location before a row, by the row and by how many moments compete."""
-    recordings = context.recordings
-    if location not in BUILDS:
-        return lambda row, tried: zero_shift(recordings, row, tried, Location.of(location).number)
+def _jump_of(context: ScanContext, at: At) -> Callable[[int, int], Placed]:
+    """What jumps at a place before a row, by the row and by how many moments compete."""
+    recordings, (effect, location) = context.recordings, at
+    j = Location.of(location).number
+    if effect == ZERO_SHIFT.name:
+        return lambda row, tried: zero_shift(recordings, row, tried, j)
+    if effect == COMPLIANCE_CHANGE.name:
+        size = plausible_change(context.scene, j)
+        return lambda row, tried: compliance_change(recordings, row, tried, j, size)
 
     def build(row: int, tried: int) -> Placed:
         _, later = context.runs_around(location, str(recordings.run[row]))
-        return BUILDS[location](recordings, row, tried, later)
+        return SET_UP[location](recordings, row, tried, later)
 
     return build
 
@@ -76,15 +99,15 @@ def when_stderr(placed: Placed, context: ScanContext, without: Hypothesis) -> fl
     """Standard error of a jump's row, or time (s): its spread over all moments, each as likely as its evidence says.
 
     Args:
-        placed: a shift of base, tool or a joint's zero within a run.
+        placed: a jump within a run.
         context: the rows.
         without: the hypothesis without it.
 
     Returns:
         Rows, or s where times are recorded.
     """
-    run = placed.terms[0].products[0].driver.arguments[1]
-    build, recordings = _jump_of(context, placed.location), context.recordings
+    run = moment_of(placed.terms).arguments[1]
+    build, recordings = _jump_of(context, placed.key), context.recordings
     for rows, cuts in pieces_of(recordings, SCANS.nearest_edge):
         if str(recordings.run[rows[0]]) != run:
             continue
@@ -147,6 +170,14 @@ class ModelRows:
             yield part, seen, y, columns(seen, terms).reshape(*y.shape, -1)
 
 
+def moment_of(terms: Sequence[Term]) -> Driver:
+    """From when on a step holds: what it follows, or what its load is multiplied with."""
+    driver = terms[0].products[0].driver
+    held = driver.arguments[-1] if driver.kind == "both" else driver
+    assert isinstance(held, Driver)
+    return held
+
+
 def step_sums(beside: ModelRows, rows: Indices, cuts: Indices, terms: Sequence[Term]) -> ColumnBlocks:
     """Sums over the rows behind each cut, and over those of the later runs in which the step holds.
 
@@ -159,7 +190,7 @@ def step_sums(beside: ModelRows, rows: Indices, cuts: Indices, terms: Sequence[T
     Returns:
         One block per cut.
     """
-    _, _, *later = terms[0].products[0].driver.arguments
+    _, _, *later = moment_of(terms).arguments
     run = beside.context.recordings.run
     rows = np.concatenate([rows, np.flatnonzero(np.isin(run, [str(each) for each in later]))])
     c, k = len(terms), len(beside.inside)

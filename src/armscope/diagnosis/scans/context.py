@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -19,6 +20,7 @@ from armscope.inference.problem import Problem
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.frames import runs_of
 from armscope.physics.model import FittedModel
+from armscope.physics.scene import Scene
 from armscope.physics.set_ups import runs_around
 from armscope.recordings import Recordings
 
@@ -53,6 +55,11 @@ class ScanContext:
     recordings: Recordings
     weights: RowWeights
     few: LinearisedTable | None = None
+
+    @functools.cached_property
+    def scene(self) -> Scene:
+        """The nominal arm at the rows."""
+        return Scene(self.model.arm, self.recordings)
 
     def runs_around(self, location: str, run: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """The runs before and after one that share its base, or its tool, so that what moved in one stays so."""

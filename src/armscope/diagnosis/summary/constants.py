@@ -38,6 +38,12 @@ class TellingRules(Constants):
     parallel_rad: float = constant(
         0.02, "between axes that count as parallel", "judgement: far beyond what a drawing is off", unit="rad"
     )
+    law_of_scatter_nats: float = constant(
+        5.0,
+        "by which scatter must grow with a load, its own or an unsaid one, to be told so",
+        "judgement: odds of 150",
+        unit="nats",
+    )
     noise_shortfall: float = constant(
         0.75, "of the stated noise, below which a residual makes it doubtful", "judgement: statements are rounded"
     )

@@ -10,6 +10,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.diagnosis.summary.scatter_laws import law_of_scatter
 from armscope.fitting.gaps import Gap, gaps, sums_beside
 from armscope.fitting.joint_scatter import motor_jacobians
 from armscope.physics.model import FittedModel
@@ -49,6 +50,15 @@ def scattered_effects(state: DiagnosisState, variance: float, left: float) -> It
         found = _told(location, Parameter("scatter", "rad", scattered.size, stderr), play)
         share = rms**2 / max(variance, together / max(left, 1e-9)) if variance > 0 else 0.0
         cure = _cure(play, len(moved))
+        if play is None and (law := law_of_scatter(state, scattered)) is not None:
+            found = replace(
+                found,
+                title=law.title,
+                parameters=(*found.parameters, *law.told),
+                physics=law.physics,
+                confirm=law.confirm,
+            )
+            cure = law.cure
         if (others := unsure[scattered.motor]) and play is None:
             places = " or ".join(f"scatter at joint {motor}" for motor in (scattered.motor, *others))
             found = replace(found, named_as="region", title=places)
