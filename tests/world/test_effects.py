@@ -57,7 +57,8 @@ BASE_TWISTS = {
 CHECKED_BELOW = {
     "backlash/load", "joint_compliance", "bearing_compliance", "base_compliance", "axis_wobble", "link_geometry",
     "link_bending", "thermal_expansion", "parallelogram_geometry", "instrument_scale", "payload_error",
-    "payload_error/centre", "holder_sag", "loose_target/along", "loose_target/across",
+    "payload_error/centre", "compliance_change", "compliance_change/temperature",
+    "holder_sag", "loose_target/along", "loose_target/across",
 }  # fmt: skip
 
 

@@ -132,7 +132,8 @@ def _taken(kind: Kind, place: str, chosen: list[Sized]) -> bool:
 
 def _loaded(scene: Scene, kind: Kind, place: str) -> bool:
     """Whether gravity turns the motor that an effect of load is to sit at."""
-    if kind.driver != LOAD or Location.of(place).kind != "joint" or kind.unloaded:
+    by_load = kind.driver == LOAD or kind.effect == "compliance_change"
+    if not by_load or Location.of(place).kind != "joint" or kind.unloaded:
         return True
     return scene.loads(number(place))
 

@@ -15,6 +15,8 @@ gravity (virtual work), T the temperature, t the time. Lengths hold at 20 C.
 | gear_mesh | joint j | amplitude rad, phase rad, per_turn 1/turn | the same, 5 to 60 |
 | backlash | joint j | gap rad | - approach gap/2; variant load: + gap/2 to the side gravity loads |
 | joint_compliance | joint j | compliance rad/(N m) | motor spring |
+| compliance_change | joint j | give rad/(N m), time s | + give tau after that time |
+| compliance_change, temperature | joint j | give_per_k rad/(N m K) | + give_per_k tau (T - 20) |
 | bearing_compliance | joint j | compliance rad/(N m) | springs across axis j, two directions, at its D-H origin |
 | axis_wobble | joint j | amplitude rad, phase rad, direction rad, per_turn 1/turn | tilt of axis j, see below |
 | servo_lag | joint j | delay s | - speed x delay |

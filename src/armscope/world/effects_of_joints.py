@@ -13,6 +13,7 @@ from armscope.world.kinds import (
     CONSTANT,
     LOAD,
     SPEED,
+    TEMPERATURE,
     TIME,
     Kind,
     Parameter,
@@ -150,6 +151,23 @@ JOINTS: tuple[Kind, ...] = (
         lambda rng, scene, place: {"jump": float(rng.choice([-1, 1]) * 5e-4), "time": moment(rng, scene)},
         lambda hidden, scene, place, values: _turn_motor(
             hidden, place, np.where(scene.session.time > values["time"], values["jump"], 0.0)
+        ),
+    ),
+    Kind(
+        "compliance_change", "", TIME, (Parameter("give", "rad/(N m)"), Parameter("time", "s", scales=False)),
+        ("payload_kg", "time_s"), joints,
+        lambda rng, scene, place: {"give": _compliance_at(rng, scene, place)["compliance"], "time": moment(rng, scene)},
+        lambda hidden, scene, place, values: _turn_motor(
+            hidden, place,
+            np.where(scene.session.time > values["time"], values["give"] * scene.torque[:, number(place)], 0.0),
+        ),
+    ),
+    Kind(
+        "compliance_change", "temperature", TEMPERATURE, (Parameter("give_per_k", "rad/(N m K)"),),
+        ("payload_kg", "temperature_c"), joints,
+        lambda rng, scene, place: {"give_per_k": 0.1 * _compliance_at(rng, scene, place)["compliance"]},
+        lambda hidden, scene, place, values: _turn_motor(
+            hidden, place, values["give_per_k"] * scene.torque[:, number(place)] * (scene.session.temperature - 20)
         ),
     ),
 )  # fmt: skip

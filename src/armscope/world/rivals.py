@@ -117,6 +117,9 @@ def _joint_rivals(patterns: Patterns) -> Iterator[Rival]:
         yield _rival("backlash", place, turn * session.approach[:, j, None])
         yield _rival("backlash", place, turn * np.sign(torque)[:, None])
         yield _rival("joint_compliance", place, turn * torque[:, None])
+        yield _rival("compliance_change", place, turn * (torque * (session.temperature - 20))[:, None])
+        for after in later:
+            yield _rival("compliance_change", place, turn * torque[:, None] * after)
         tilts = (f"tilt {j + 1} x", f"tilt {j + 1} y")
         yield _rival("bearing_compliance", place, patterns.given_way(*tilts))
         for order in (1, 2):
