@@ -61,7 +61,7 @@ def compliance_change(recordings: Recordings, row: int, multiplicity: int, j: in
     runs = in_order_of_time(recordings)
     start = moment(recordings, row, tuple(runs[runs.index(str(recordings.run[row])) + 1 :]))
     return from_then_on(
-        _looser(plausible, j, start.driver, "", multiplicity=multiplicity * FORM.sessions_per_slip), start
+        _looser(plausible, j, start.driver, "", multiplicity=multiplicity * FORM.sessions_per_loosening), start
     )
 
 

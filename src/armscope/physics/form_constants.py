@@ -68,6 +68,13 @@ class FormRules(Constants):
         "every arm has may look like it; one real arm and one world of the proof were in view",
         unit="sessions",
     )
+    sessions_per_loosening: int = constant(
+        1000,
+        "without a drive whose compliance changes while the arm is measured, for one with: the prior pays for it",
+        "judgement: drives work loose between overhauls, not within an hour; one real arm was in view, in which a "
+        "session with other faults looked like it at ten",
+        unit="sessions",
+    )
     numbers_per_orientation_value: int = constant(
         2, "of recorded orientations, for each value of how they err", "judgement: half of what they say is left"
     )
