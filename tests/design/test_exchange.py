@@ -5,7 +5,7 @@ import pytest
 
 from armscope.design.exchange import _Information, d_optimal, optimal
 from armscope.design.indices import SOURCES, all_indices
-from armscope.design.separation import nats_apart, separating
+from armscope.design.separation import separating
 
 
 def determinant(jacobian, rows):
@@ -84,20 +84,3 @@ def test_separating_poses_count_what_the_rival_can_adapt_to():
     assert separation == pytest.approx([1.0, 5.0])
     stiff, _ = separating(jacobian, apart, np.array([[1e-12]]), 0.1, 2)
     assert stiff.tolist() == [0, 1]
-
-
-def test_evidence_expected_of_poses_is_the_misfit_of_a_rival_that_adapts():
-    """Against a least-squares fit of the rival to what the poses would show, its old rows as a penalty."""
-    rng = np.random.default_rng(0)
-    jacobian, apart, noise = rng.normal(size=(7, 3, 4)), rng.normal(size=(7, 3)), 0.3
-    root = rng.normal(size=(4, 4))
-    covariance = root @ root.T
-    rows = np.vstack([jacobian.reshape(-1, 4) / noise, np.linalg.inv(np.linalg.cholesky(covariance))])
-    shown = np.concatenate([apart.reshape(-1) / noise, np.zeros(4)])
-    left = shown - rows @ np.linalg.lstsq(rows, shown, rcond=None)[0]
-    assert nats_apart(jacobian, apart, covariance, noise) == pytest.approx(left @ left / 2)
-    # nothing to adapt with: the bare misfit
-    assert nats_apart(jacobian, apart, 1e-18 * covariance, noise) == pytest.approx(np.sum(apart**2) / (2 * noise**2))
-    # all of it within the rival's reach: next to nothing, however precise the measurement
-    within = jacobian @ rng.normal(size=4)
-    assert nats_apart(jacobian, within, 1e9 * covariance, 1e-3) < 1e-4

@@ -39,24 +39,3 @@ def separating(jacobian: Array, apart: Array, covariance: Array, noise: float, c
         spread = spread - (gain.reshape(3 * n, 3) @ spread[pose]).reshape(n, 3, p)
         blocks = blocks - gain @ np.swapaxes(across, 1, 2)
     return np.array(chosen), np.array(separation)
-
-
-def nats_apart(jacobian: Array, apart: Array, covariance: Array, noise: float) -> float:
-    """Expected evidence, nats, by which measuring poses speaks against a rival that adapts to all of them together.
-
-    1/2 d' (J C J' + noise^2 I)^-1 d, the misfit that is left when its parameters follow the new rows as far as the old
-    ones let them. Shapes as for `separating`, the poses already chosen.
-
-    Args:
-        jacobian: (K, 3, p) of the rival's parameters at the poses.
-        apart: (K, 3) difference of the two predictions there.
-        covariance: (p, p) of the rival's parameters by the old rows.
-        noise: 1-sigma per axis, in the unit of ``apart``.
-
-    Returns:
-        The evidence, nats.
-    """
-    lying = jacobian.reshape(-1, jacobian.shape[2])
-    spread = lying @ covariance @ lying.T + noise**2 * np.eye(len(lying))
-    difference = apart.reshape(-1)
-    return float(difference @ np.linalg.solve(spread, difference)) / 2

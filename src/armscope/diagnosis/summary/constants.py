@@ -121,14 +121,16 @@ class NextPoseRules(Constants):
 
     tried: int = constant(400, "from which they are chosen", "judgement: time", unit="poses")
     asked: int = constant(12, "asked for", "judgement: an hour's work", unit="poses")
-    decisive_nats: float = constant(
-        10.5,
-        "that they should tell two readings apart by on average",
-        "derived: D - 1.645 sqrt(2 D) = 3: D expected nats scatter by sqrt(2 D), so 95 of 100 cases "
-        "exceed the 3 nats of 20 to 1",
-        unit="nats",
+    draws: int = constant(
+        8, "of what would be measured, by which it is judged whether poses settle a question", "judgement: time"
     )
-    most_repeats: int = constant(200, "of a pose", "judgement: nobody measures one more often", unit="visits")
+    clear_deviations: float = constant(
+        2.0, "by which a number of a reading must stand out to be taken as there", "convention: 95 %", unit="sigma"
+    )
+    settled: float = constant(
+        0.75, "of them in which the right reading must then lead by odds of 20 to 1", "judgement: three of four"
+    )
+    most_repeats: int = constant(64, "of a pose", "judgement: nobody measures one more often", unit="visits")
     rounds: int = constant(
         20,
         "of so many draws until as many are possible as compete",

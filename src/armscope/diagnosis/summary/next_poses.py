@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from armscope.design.separation import nats_apart, separating
+from armscope.design.separation import separating
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import NEXT_POSES
 from armscope.diagnosis.summary.reachable import checked_in_words, free_space, reachable
 from armscope.diagnosis.summary.rivals import Rival, discriminability
+from armscope.diagnosis.summary.settling import OpenQuestion
 from armscope.fitting.design_matrix import point_columns
 from armscope.inference.constants import PRIORS
 from armscope.physics.drift import six_terms
@@ -39,22 +40,25 @@ def next_poses(
     """
     best, candidates = state.best, state.space.candidates
     pairs = [
-        (discriminability(best, other, candidates[c], rival), candidates[c], rival, other)
+        (discriminability(best, rival.hypothesis, candidates[c], rival.candidate), candidates[c], rival)
         for c, found in rivals.items()
-        for _, rival, other, *_ in found
+        for rival in found
     ]
     if not pairs:
         return None
-    nats, effect, rival, other = min(pairs, key=lambda pair: pair[0])
+    nats, effect, rival = min(pairs, key=lambda pair: pair[0])
+    other = rival.hypothesis
     if nats > INDISTINGUISHABLE_NATS:
         return None
     arm = state.fit.model.arm
-    terms = [state.space.layout.terms[column] for column in (*effect.columns, *rival.columns)]
+    terms = [state.space.layout.terms[column] for column in (*effect.columns, *rival.candidate.columns)]
     around = free_space(arm, state.recordings, state.floor)
     table = reachable(arm, state.recordings, around, _follow_load(terms), rng)
     if not len(table):
         nowhere = checked_in_words(arm, around, state.floor is None, 0)
-        return NextPoses(table.motor_angles, np.empty(0), np.empty(0), effect.label, rival.label, np.inf, nowhere)
+        return NextPoses(
+            table.motor_angles, np.empty(0), np.empty(0), effect.label, rival.candidate.label, np.inf, nowhere
+        )
     scene = Scene(arm, table)
     posture = scene.posture()
     X = point_columns(posture, state.space.layout.terms).reshape(len(table), 3, -1) / state.problem.scale
@@ -69,18 +73,15 @@ def next_poses(
     with_base[k:, k:] = np.eye(6) * (PRIORS.frame_mm * 1e-3) ** 2
     adapting = np.concatenate([X[:, :, other.columns], new_base], axis=2)
     chosen, separation = separating(adapting, between, with_base, other.noise, NEXT_POSES.asked)
-    repeats = next(
-        (
-            float(k)
-            for k in range(1, NEXT_POSES.most_repeats + 1)
-            if nats_apart(adapting[chosen], between[chosen], with_base, other.noise / np.sqrt(k))
-            >= NEXT_POSES.decisive_nats
-        ),
-        float("inf"),
+    question = OpenQuestion(
+        state.problem, best, effect, rival, X[chosen], new_base[chosen], with_base.diagonal()[k:].copy()
     )
+    repeats = question.times(rng)
     payload = np.full(len(chosen), np.nan) if table.payload is None else table.payload[chosen]
     checked = checked_in_words(arm, around, state.floor is None, len(chosen))
-    return NextPoses(table.motor_angles[chosen], payload, separation, effect.label, rival.label, repeats, checked)
+    return NextPoses(
+        table.motor_angles[chosen], payload, separation, effect.label, rival.candidate.label, repeats, checked
+    )
 
 
 def _follow_load(terms: Sequence[Term]) -> bool:
