@@ -32,12 +32,14 @@ class Misstated:
         payload_share: of the stated payload, added to it.
         payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
         masses: (n,) of each link's stated mass, added to it.
+        carried_kg: added to the payload at the tool point in the rows that carry one.
     """
 
     payload_kg: float = 0.0
     payload_share: float = 0.0
     payload_offset: Array | None = None
     masses: Array | None = None
+    carried_kg: float = 0.0
 
 
 AS_STATED = Misstated()
@@ -138,7 +140,7 @@ class LoadedArm(ABC):
         """(N,) kg at the tool point: stated, plus the error under study."""
         stated, wrong = self.recordings.payload, self.misstated
         known = np.zeros(len(self)) if stated is None else np.nan_to_num(stated)
-        return wrong.payload_kg + (1 + wrong.payload_share) * known
+        return wrong.payload_kg + wrong.carried_kg * (known > 0) + (1 + wrong.payload_share) * known
 
     @property
     def wrenches(self) -> tuple[Array, Array]:

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from armscope.core.numerals import rounded
+from armscope.core.types import Array
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term
@@ -21,6 +22,8 @@ from armscope.recordings import Recordings
 
 LEAST_PAYLOAD_KG = 1e-6
 """A payload that varies by less is one payload: a wrong factor and a wrong mass are the same."""
+CARRYING = Driver("carrying")
+"""1 where a payload is stated, 0 where none is carried."""
 PAYLOAD_MASS = Direction("payload", "mass")
 """The load itself, kg: it moves nothing, but instruments that feel loads see it."""
 
@@ -44,6 +47,10 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
         factor = _term("share", "of what is stated", 1.0, loaded, _by_share, itself)
         factor = replace(factor, plausible=PLAUSIBLE.payload_share)
         yield Placed(PAYLOAD_ERROR, "payload", (factor,), (1.0,), "payload", variant="factor")
+    if _carries_several(recordings.payload):
+        carried = _term("mass_carried", "kg", 1.0, loaded, _by_mass_carried, Product(PAYLOAD_MASS, CARRYING))
+        carried = replace(carried, plausible=PLAUSIBLE.payload_share * heaviest)
+        yield Placed(PAYLOAD_ERROR, "payload", (carried,), (1.0,), "payload", variant="carried")
     centre = tuple(
         replace(
             _term(f"com_{name}", "mm", 1e-3, loaded, partial(_off_centre, axis)),
@@ -52,6 +59,13 @@ def payload_errors(recordings: Recordings, elastic: Sequence[Part]) -> Iterator[
         for axis, name in enumerate("xyz")
     )
     yield Placed(PAYLOAD_ERROR, "payload", centre, (1.0,) * 3, "payload", variant="centre")
+
+
+def _carries_several(payload: Array) -> bool:
+    """Whether some rows carry nothing and others different loads: else a mass or a share says the same."""
+    stated = payload[np.isfinite(payload)]
+    carried = stated[stated > LEAST_PAYLOAD_KG]
+    return len(carried) < len(stated) and bool(np.ptp(carried) > LEAST_PAYLOAD_KG if len(carried) else False)
 
 
 def what_bears(recordings: Recordings, elastic: Sequence[Part]) -> list[Product]:
@@ -71,6 +85,10 @@ def _absolute_giving(part: Part) -> Iterator[Product]:
 
 def _by_mass(load: Driver) -> Driver:
     return Driver("heavier", (load,))
+
+
+def _by_mass_carried(load: Driver) -> Driver:
+    return Driver("both", (_by_mass(load), CARRYING))
 
 
 def _by_share(load: Driver) -> Driver:
@@ -93,13 +111,18 @@ def _restated(part: Part) -> Misstated:
     """What the payload is more than stated."""
     values = {term.name: float(value) for term, value in zip(part.placed.terms, part.values, strict=True)}
     offset = np.array([values.get(f"com_{axis}", 0.0) for axis in "xyz"])
-    return Misstated(values.get("mass", 0.0), values.get("share", 0.0), offset)
+    return Misstated(
+        values.get("mass", 0.0), values.get("share", 0.0), offset, carried_kg=values.get("mass_carried", 0.0)
+    )
 
 
 def _not_as_stated(told: Told) -> str:
     if "share" in told.numbers:
         share = told.numbers["share"].value
         return f"the payload is {rounded(100 * abs(share))} % {'heavier' if share > 0 else 'lighter'} than stated"
+    if "mass_carried" in told.numbers:
+        mass = told.numbers["mass_carried"]
+        return f"whatever is carried is {mass} {'heavier' if mass.value > 0 else 'lighter'} than stated"
     errors = " and ".join(f"{name.replace('_', ' ')} by {number:+}" for name, number in told.numbers.items())
     return "the payload is not as stated" + (f": {errors}" if errors else "")
 
@@ -111,7 +134,8 @@ PAYLOAD_ERROR = Effect(
     "The payload's mass or centre of mass is other than stated, so everything that gives way is loaded differently.",
     "Weigh the tool and its load, and find its centre of mass by hanging it from two points.",
     Cure(
-        "Correct the payload's data in the controller: mass = stated mass + mass (a share: x (1 + share)); "
+        "Correct the payload's data in the controller: mass = stated mass + mass (a share: x (1 + share); "
+        "mass_carried: where anything is carried, as of a gripper that nobody counted); "
         "centre = stated centre + com, in the last frame's axes; what is not named stays as stated. The deflection is "
         "then compensated with the right load.",
         statement=_restated,
@@ -119,6 +143,7 @@ PAYLOAD_ERROR = Effect(
         instruction="Weigh the load and correct mass and centre of mass in the controller.",
     ),
     clauses=(_not_as_stated,),
+    labels={"mass_carried": "mass, where anything is carried"},
     atlas="gravity load",
     needs=("payload_kg",),
     requires="elastic",
