@@ -14,12 +14,15 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.inference.edits import by_posterior
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain
 from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.library import catalogue
+from armscope.motion.library.laws import is_of_a_gain
+from armscope.motion.library.layout import TorqueLayout
 from armscope.motion.summary.constants import NAMING
 from armscope.motion.summary.doubts import determined
 from armscope.motion.summary.intervals import sureness
@@ -43,6 +46,7 @@ def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, fl
     Returns:
         The same fit, with these gains free; itself where none stands out.
     """
+    selected = with_named_gains_alone(selected)
     layout = selected.rows.layout
     if not layout.with_gains:
         return selected
@@ -57,6 +61,42 @@ def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, fl
     asked = unstated & named.keys()
     loose = {j for j in asked if not determined(cause_parameters(freed, named[j], sure.factor))}
     return _freed(selected, (far | unstated) - loose)[0] if loose else freed
+
+
+def with_named_gains_alone(selected: SelectedCauses) -> SelectedCauses:
+    """The selection in which a gain that has a name has no part without one: they are one column twice.
+
+    What is fitted along would take the named gain up wherever that is cured by itself, so that a motor constant 15 %
+    off was worth nothing and stood at the end. Without it a plain gain may do where a curve of the torque was chosen.
+    """
+    layout, best = selected.rows.layout, selected.best
+    named = {n: layout.placed[n].joints[0] for n in best.candidates if is_of_a_gain(layout.placed[n].columns)}
+    unnamed = np.intersect1d(layout.gains[sorted(set(named.values()))], best.columns)
+    if not len(unnamed):
+        return selected
+
+    def of_all_of_it(effect: SelectedEffect) -> SelectedEffect:
+        if effect.candidate not in named:
+            return effect
+        column = layout.columns[effect.candidate][0]
+        whole = selected.coefficients[column] + selected.coefficients[layout.gains[named[effect.candidate]]]
+        size = selected.problem.nearest_size(float(abs(whole)) * selected.problem.scale[column])
+        return replace(effect, size=size)
+
+    problem = selected.problem.holding(unnamed)
+    search, chosen = Search.on(problem), tuple(map(of_all_of_it, best.chosen))
+    alone = search.evaluated(chosen, best)
+    for effect in chosen:
+        for plain in _gains_of(layout, named.get(effect.candidate, -1)):
+            others = [each for each in alone.chosen if each.candidate not in (effect.candidate, plain)]
+            straight = search.evaluated((*others, replace(effect, candidate=plain)), alone)
+            alone = max(alone, straight, key=by_posterior)
+    return at_own_gain(replace(selected, space=problem.space, problem=problem, best=alone))
+
+
+def _gains_of(layout: TorqueLayout, joint: int) -> list[int]:
+    """The numbers of the causes that are a joint's plain gain: one, or none."""
+    return [n for n, each in enumerate(layout.placed) if each.cause is catalogue.GAIN and each.joints[0] == joint]
 
 
 def _masses_are_free(selected: SelectedCauses) -> bool:
