@@ -113,3 +113,18 @@ def test_a_gain_within_what_is_stated_that_matters_is_told_by_a_notice() -> None
     assert factor == pytest.approx(1 / 1.06, rel=0.01)
     assert told in verdict.headline
     assert verdict.waterfall[1].label == "torque constants near the stated"
+
+
+@pytest.mark.parametrize("gain", [0.82, 1.2])
+def test_a_gain_far_off_among_others_that_are_off_a_little_is_worth_what_its_cure_brings(gain: float) -> None:
+    """What is fitted along took it up wherever it was cured, and it stood last, as minor, or as no known law."""
+    motions = moved(robot(), 1, noise=0.005, seconds=10.0)
+    currents = dataclasses.replace(motions, kind="current", effort=motions.effort * [1.02, gain, 0.98] / STATED)
+    arm = robot(drives=[{"gain_nm_per_a": STATED, "gain_uncertainty": 0.03}] * 3)
+    verdict = diagnose_motion(arm, currents, MotionSettings(cutoff=10.0)).verdict
+    (told,) = (each for each in verdict.effects if each.location == "joint 2")
+    assert (told.effect, told.minor) == ("motor_constant", False)
+    assert told.share > 0.8
+    low, high = told.parameters[0].interval
+    assert low < gain - 1 < high
+    assert "recorded torque of joint 2 is" in verdict.headline
