@@ -58,6 +58,11 @@ class LibraryRules(Constants):
         "judgement: beyond the change of sides",
         unit="widths",
     )
+    falls: tuple[float, ...] = constant(
+        (2.0, 1.0),
+        "exponents of the speed over which friction falls from its value near rest; the first where a law says none",
+        "convention: Gauss' bell and the exponential, both in use (Armstrong-Helouvry, Dupont, Canudas de Wit 1994)",
+    )
     stribeck_widths: int = constant(5, "speeds that are scanned", "judgement: in steps of two", unit="speeds")
     between_speeds: float = constant(0.5, "relative, of a scanned speed, allowed for", "derived: half a scan's step")
     same_unit: float = constant(

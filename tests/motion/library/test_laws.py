@@ -51,6 +51,17 @@ def test_a_stribeck_speed_is_refined_along_its_own_slope() -> None:
     np.testing.assert_allclose(Law("stribeck", (1,), (0.01, 0.5))(MOMENT)[:, 0, 1], slope, atol=1e-6)
 
 
+def test_friction_near_rest_falls_as_a_bell_or_exponentially() -> None:
+    def at(*fall: float) -> np.ndarray:
+        return Law("stribeck", (1,), (1e-9, *fall))(MOMENT)[:, 0]
+
+    v = MOMENT.signals.dq[:, 1]
+    np.testing.assert_allclose(at(1.0, 0.5)[:, 0], np.sign(v) * np.exp(-np.abs(v) / 0.5), atol=1e-9)
+    np.testing.assert_allclose(at(2.0, 0.5), at(0.5))
+    slope = (at(1.0, 0.5 * np.exp(1e-4)) - at(1.0, 0.5 * np.exp(-1e-4)))[:, 0] / 2e-4
+    np.testing.assert_allclose(at(1.0, 0.5)[:, 1], slope, atol=1e-6)
+
+
 def test_a_spring_and_a_warm_gear_own_their_constants() -> None:
     spring = Law("spring", (0,), (0.3,))(MOMENT)[:, 0]
     np.testing.assert_allclose(spring, np.column_stack([Q[:, 0] - 0.3, np.ones(50)]))

@@ -256,3 +256,14 @@ def test_friction_near_rest_that_is_no_bell_is_written_out_with_both_its_terms()
     assert np.allclose((first + second * 2 * x) * np.exp(-x), 0.8 * bell(speed) - 0.5 * by_wider, atol=1e-6)
     plain = remedies_of_laws.near_rest(Fitted("", (height, Parameter("wider", "N m", 0.1, 0.1), numbers[2]), robot()))
     assert near_rest(plain) is not None
+
+
+def test_friction_near_rest_that_falls_exponentially_is_written_out_as_that() -> None:
+    numbers = (
+        Parameter("stribeck", "N m", 0.8, 0.1),
+        Parameter("wider", "N m", 0.1, 0.1),
+        Parameter("speed", "rad/s", 0.3, float("nan")),
+    )
+    cure = remedies_of_laws.near_rest(Fitted("", numbers, robot(), (0.01, 1.0, 0.3)))
+    assert "exp(-|speed| / (0.3 rad/s)) × sign of the speed" in cure
+    assert "exp(-(speed / (0.3 rad/s))²)" in remedies_of_laws.near_rest(Fitted("", numbers, robot(), (0.01, 0.3)))

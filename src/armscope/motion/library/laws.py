@@ -54,11 +54,17 @@ def _side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
     return side(replace(m.signals, dq=m.signals.dq[:, own], ddq=m.signals.ddq[:, own]), np.array([width]))[:, 0]
 
 
-def _stribeck(m: Moment, joints: tuple[int, ...], width: float, speed: float) -> Array:
-    """The law, and its change with the logarithm of its speed: a scanned speed is never quite the true one."""
-    share = (_speed(m, joints) / speed) ** 2
+def _stribeck(m: Moment, joints: tuple[int, ...], width: float, *fall: float) -> Array:
+    """The law, and its change with the logarithm of its speed: a scanned speed is never quite the true one.
+
+    The fall is a speed, of Gauss' bell, or an exponent before it: both forms are in use, exp(-|v/w|^2) and exp(-|v/w|)
+    (Armstrong-Helouvry, Dupont, Canudas de Wit 1994), and a bell that is fitted to the other is half as high.
+    """
+    *exponents, speed = fall
+    exponent = exponents[0] if exponents else LIBRARY.falls[0]
+    share = np.abs(_speed(m, joints) / speed) ** exponent
     fallen = _side(m, joints, width) * np.exp(-share)
-    return np.column_stack([fallen, 2 * share * fallen])
+    return np.column_stack([fallen, exponent * share * fallen])
 
 
 def _load_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:

@@ -134,11 +134,12 @@ def _friction(at: _Joint) -> Iterator[PlacedCause]:
     yield at.cause(catalogue.ASYMMETRY, "direction", by_side, "absolute speed")
     fastest, slowest = float(np.abs(at.seen.dq[at.number]).max()), LIBRARY.slow * max(at.width, at.sharp)
     widths = np.geomspace(slowest, max(fastest / 2, 2 * slowest), LIBRARY.stribeck_widths)
-    for v in map(float, widths):
-        more: dict[str, Any] = {"variant": f"{v:.3g}", "scanned": (("speed", f"{unit}/s", v),)}
-        names = (("stribeck", torque), ("wider", torque))
-        more["expected"] = (1.0, LIBRARY.between_speeds)
-        yield at.cause(catalogue.STRIBECK, "speed", names, "stribeck", at.sharp, v, multiplicity=len(widths), **more)
+    parameters, multiplicity = (("stribeck", torque), ("wider", torque)), len(widths) * len(LIBRARY.falls)
+    for v, fall in itertools.product(map(float, widths), LIBRARY.falls):
+        form, law = (f"{v:.3g}", (v,)) if fall == LIBRARY.falls[0] else (f"{v:.3g} by {fall:g}", (fall, v))
+        more: dict[str, Any] = {"variant": form, "scanned": (("speed", f"{unit}/s", v),)}
+        more |= {"expected": (1.0, LIBRARY.between_speeds), "multiplicity": multiplicity}
+        yield at.cause(catalogue.STRIBECK, "speed", parameters, "stribeck", at.sharp, *law, **more)
     yield at.cause(catalogue.LOAD_FRICTION, "load", (("per_load", ""),), "load friction", at.sharp)
     yield from _curved(at)
 

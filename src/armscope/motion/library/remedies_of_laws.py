@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from armscope.motion.constants import LIBRARY
 from armscope.motion.library.clauses import amount
 from armscope.motion.library.linkage import length
 from armscope.motion.library.power_law import nearest_ordinary
@@ -17,12 +18,15 @@ from armscope.verdict.effects import INTERVAL, Parameter
 
 
 def near_rest(fitted: Fitted) -> str:
-    """Friction that falls from its value near rest, and how else it falls where the bell alone is not enough."""
+    """Friction that falls from its value near rest, and how else it falls where the law alone is not enough."""
     extra, wider, speed = (fitted.numbers[name] for name in ("stribeck", "wider", "speed"))
+    exponent = fitted.of_law[1] if len(fitted.of_law) > 2 else LIBRARY.falls[0]
+    width = f"({speed.value:.4g} {speed.unit})"
+    share = f"(speed / {width})²" if exponent == LIBRARY.falls[0] else f"|speed| / {width}"
     if abs(wider.value) > INTERVAL * wider.stderr:
-        both = f"({amount(extra, sign=True)} {amount(wider, sign=True)} × 2 x) × exp(-x) × sign of the speed"
-        return f"Add a term to the friction model: {both}, where x is (speed / ({speed.value:.4g} {speed.unit}))²."
-    falls = f"exp(-(speed / ({speed.value:.4g} {speed.unit}))²)"
+        both = f"({amount(extra, sign=True)} {amount(wider, sign=True)} × {exponent:g} x) × exp(-x) × sign of the speed"
+        return f"Add a term to the friction model: {both}, where x is {share}."
+    falls = f"exp(-{share})"
     return f"Add a Stribeck term to the friction model: {amount(extra, sign=True)} × {falls} × sign of the speed."
 
 
