@@ -15,9 +15,9 @@ from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.constants import DRAFT, LIMITS
 from armscope.recordings.importing.draft_orientations import orientation_lines
 from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
+from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
-    below_name,
     column_list,
     first_table,
     printable,
@@ -25,7 +25,7 @@ from armscope.recordings.importing.first_table import (
 )
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
 
@@ -74,7 +74,7 @@ def draft_mapping(path: Path | str) -> str:
         shown = ", ".join(quoted(printable(name)) for name in unused[: LIMITS.unused_named])
         lines += [f"# not used: {shown}{', ...' * (len(unused) > LIMITS.unused_named)}"]
     text = "\n".join([HEAD.format(printable(path.name), "recordings.csv"), *lines, ""])
-    validate(Mapping, yaml.safe_load(text), path)
+    validate(Mapping, yaml.safe_load(filled_in(text)), path)
     return text
 
 
@@ -127,11 +127,10 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
             seen, line = ", ".join(table.names[: LIMITS.unused_named]), f"line {table.skip + 1}"
             rule = f"no columns look like {what}, nor like time, angles and torques or currents of a motion"
             raise InputError(path, line, seen, rule, by_hand(table.names, str(path)))
-    numbers = table.values[:, angles]
-    largest = _largest(numbers)
-    stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
+    largest = _largest(table.values[:, angles])
+    stated, why = unit_of(table, angles, ANGLE_UNITS)
     unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
-    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
+    why = why or f"guessed: none is beyond {largest:.4g}"
     why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
     of_ur = angles == _ur_joints(table)
@@ -139,9 +138,9 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     why += "; no numbers in the names: in the table's order" if unnumbered and not of_ur else ""
     yield f"  angles: {{columns: {column_list(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
     largest = _largest(table.values[:, points])
-    stated = stated_unit(table.names[points[0]], below_name(table, points[0]), LENGTH_UNITS)
+    stated, why = unit_of(table, points, LENGTH_UNITS)
     unit = stated or ("m" if largest <= DRAFT.metres_up_to else "mm")
-    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
+    why = why or f"guessed: none is beyond {largest:.4g}"
     why += "; columns by likeness of names"
     if len(reflectors) == 1:
         yield f"  position: {{columns: {column_list(table, points)}, unit: {unit}}}   # {why}"
@@ -243,10 +242,7 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
     if not table.header:
         return
     for group, columns in _per_motor(table, n_motors, taken).items():
-        unit = ", unit: rad/s" if group == "speed" else ""
-        say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
-        listed = column_list(table, columns)
-        yield f"  {group}: {{columns: {listed}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
+        yield _of_motors(table, group, columns)
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     if of_one_point:
         yield from orientation_lines(table, taken)
@@ -268,6 +264,19 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
             continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(quoted(table.names[match]))}   # guessed by name"
+
+
+def _of_motors(table: ForeignTable, group: str, columns: list[int]) -> str:
+    """The line of speeds, torques or sides of approach; torques in another unit than N m are not taken."""
+    listed = column_list(table, columns)
+    if group == "speed":
+        unit, why = unit_of(table, columns, SPEED_UNITS)
+        said = why or "unit guessed: rad/s"
+        return f"  speed: {{columns: {listed}, unit: {unit or 'rad/s'}}}   # guessed by name; {said}"
+    if group == "torque" and unit_of(table, columns, TORQUE_UNITS)[0] == FILL_IN:
+        return f"  # torque: {{columns: {listed}}}   # guessed: not taken, the table states another unit than N m"
+    say = {"torque": "N m, positive along gravity's pull: check the sign"}
+    return f"  {group}: {{columns: {listed}}}   # guessed by name; {say.get(group, '-1, +1')}"
 
 
 def _all_different(numbers: Array) -> bool:

@@ -12,8 +12,9 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.first_table import ForeignTable, below_name, column_list
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, stated_unit
+from armscope.recordings.importing.draft_units import unit_of
+from armscope.recordings.importing.first_table import ForeignTable, column_list
+from armscope.recordings.importing.stated_units import ANGLE_UNITS
 
 QUATERNION_PART = re.compile(
     r"(.*[\s_.\-/])?(q|quat|quaternion|rot|rotation|ori|orient|orientation|o)?[\s_.\-\[(]*(?P<part>[wxyz])[\])]?"
@@ -49,7 +50,7 @@ def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[s
             continue
         columns = [bare[name] for name in names]
         largest = np.nanmax(np.abs(table.values[:, columns]), initial=0.0)
-        stated = stated_unit(table.names[columns[0]], below_name(table, columns[0]), ANGLE_UNITS)
+        stated, _ = unit_of(table, columns, ANGLE_UNITS)
         unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
         said = line.format(columns=column_list(table, columns), unit=unit)
         yield f"  # orientation: {{{said}}}   # guessed: not taken, as if {COMPUTED}"

@@ -33,6 +33,7 @@ class ForeignTable:
         values: (rows, columns).
         cells: the words that the numbers were read from.
         units: the cells of a line of units below the header; empty where there is none.
+        file: the table's.
     """
 
     delimiter: str
@@ -44,6 +45,7 @@ class ForeignTable:
     encoding: str
     cells: list[list[str]]
     units: list[str]
+    file: Path
 
     def words(self, columns: Sequence[int]) -> list[str]:
         """What stands in some columns in place of a number and holds no digit, "---" or "n/a", in order."""
@@ -91,13 +93,13 @@ def first_table(path: Path) -> ForeignTable:
     numbers = np.array([[_value(cell, decimal) for cell in row] for row in body], dtype=float)
     if not len(numbers):
         raise InputError(path, "", "a header alone", "rows are needed to guess units from")
-    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding, body, units)
+    return ForeignTable(delimiter, decimal, first, names, header, numbers, encoding, body, units, path)
 
 
 def _is_of_units(cells: Sequence[str]) -> bool:
-    """Whether a line below the header says units: an angle's and a length's at least, and no number."""
+    """Whether a line below the header says units: an angle's or a length's at least, and no number."""
     words = {cell.lower().strip(" []()") for cell in cells}
-    return bool(words & set(ANGLE_UNITS)) and bool(words & set(LENGTH_UNITS)) and not any(map(NUMBER.fullmatch, words))
+    return bool(words & {*ANGLE_UNITS, *LENGTH_UNITS}) and not any(map(NUMBER.fullmatch, words))
 
 
 def _first_lines(path: Path, encoding: str) -> list[str]:
