@@ -57,3 +57,21 @@ def test_without_a_held_out_gain_the_nominal_arm_serves(calibration):
     misses = pd.DataFrame({"held_out_mm": [0.07], "frames_only_mm": [0.06]})
     assert replace(calibration, misses=misses).nominal_serves
     assert not replace(calibration, misses=misses, level="nominal").nominal_serves
+
+
+def test_constants_that_hold_only_with_compliances_say_so_with_what_they_leave_alone(calibration):
+    rng = np.random.default_rng(8)
+    arm, angles, torque = ur_like(), poses(rng, 80, 6), rng.normal(scale=40, size=(80, 6))
+    compliance = np.array([1, 5, 3, 0, 0, 0]) * 1e-5
+    shown = measured(arm, angles + torque * compliance, far_away(rng), {"": [0.05, 0.1, 0.2]})
+    elastic = calibrate(arm, replace(shown, motor_angles=angles, torque=torque), "compliance")
+    by_hand = replace(elastic.state, compliances=np.zeros(6))
+    rms = np.sqrt(np.mean(np.sum(elastic.set_up.residuals(by_hand) ** 2, axis=1)))
+    assert elastic.rms_without_compliances == pytest.approx(rms)
+    assert rms > 100 * elastic.rms_distance
+    assert (
+        f"in frames.yaml (robot.yaml and URDF have no place for them): without them {rms * 1e3:.4g} mm"
+        in elastic.text()
+    )
+    assert calibration.rms_without_compliances is None
+    assert "frames.yaml" not in calibration.text()

@@ -73,3 +73,11 @@ def test_advice_about_a_file_names_it_as_it_was_named(tmp_path: Path) -> None:
     assert "A robot.yaml is given by --robot" in told
     foreign.write_text("q1_rad;q2_rad;x_mm\n1;2;3\n")
     assert f"`armscope init '{foreign}' -o mapping.yaml`" in told_of("check", str(foreign))
+
+
+@pytest.mark.parametrize("line", ["compare TABLE TABLE -o -", "calibrate TABLE -o /dev/stdout", "diagnose TABLE -o -"])
+def test_a_folder_is_no_standard_output(line: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    said = told_of(*line.replace("TABLE", str(EXAMPLE / "recordings.csv")).split(), "-r", str(EXAMPLE / "robot.yaml"))
+    assert "no folder, but a stream; needed here: folder" in said
+    assert not list(tmp_path.iterdir())

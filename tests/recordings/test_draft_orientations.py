@@ -64,3 +64,17 @@ def test_three_angles_are_offered_and_read_right_when_taken(tmp_path, names, val
     assert COMPUTED in mapping
     taken = mapping.replace("  # orientation:", "  orientation:")
     assert (imported(tmp_path, taken) * ROTATIONS.inv()).magnitude().max() < 1e-6
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_four_numbered_columns_of_length_one_beside_the_motors_are_a_quaternion(first, tmp_path):
+    """As ABB's controllers number them, w first."""
+    named = parts(ROTATIONS.as_quat(scalar_first=True), " ".join(f"q{n}" for n in range(first, first + 4)))
+    mapping = drafted(tmp_path, named)
+    assert "w first, as ABB counts them" in mapping
+    assert (imported(tmp_path, mapping) * ROTATIONS.inv()).magnitude().max() < 1e-6
+
+
+def test_four_numbered_columns_of_another_length_are_none(tmp_path):
+    named = parts(1.1 * ROTATIONS.as_quat(scalar_first=True), "q1 q2 q3 q4")
+    assert "orientation" not in drafted(tmp_path, named)

@@ -15,6 +15,10 @@ from armscope.recordings.importing.first_table import first_table
         ("q1,q2,x_cmd,y_cmd,z_cmd,x_meas,y_meas,z_meas", [[5, 6, 7]]),  # commanded and measured: one point
         ("q1,q2,x1,y1,z1,x3,y3,z3", [[2, 3, 4]]),  # no second one: something else may be meant
         ("q1,q2,x1,y1,z1,x2,y2,w2", [[2, 3, 4]]),
+        ("q1,q2,PosX,PosY,PosZ", [[2, 3, 4]]),
+        ("q1,q2,posx,posy,posz", [[2, 3, 4]]),
+        ("q1,q2,TrackerX,TrackerY,TrackerZ", [[2, 3, 4]]),
+        ("q1,q2,测量X,测量Y,测量Z", [[2, 3, 4]]),
         ("q1,q2,a,b,c", []),
     ],
 )

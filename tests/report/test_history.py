@@ -1,5 +1,6 @@
 """The history of a change has a row and a point per recording."""
 
+import itertools
 from dataclasses import replace
 
 from armscope.comparison.result import Change, Comparison
@@ -38,3 +39,14 @@ def test_names_of_files_are_drawn_as_they_can_be_read():
 def test_arms_have_no_order_so_no_line_joins_them():
     (of_time,), (of_arms,) = (history_figure(replace(FOUND, of_arms=arms)).axes for arms in (False, True))
     assert len(of_time.lines) == len(of_arms.lines) + 1
+
+
+def test_names_of_many_numbers_do_not_stand_in_each_other():
+    names = ("turn of the middle of the link about x", "wave_twice_per_turn_sine", "least_load", "offset")
+    many = replace(CHANGE, parameters=tuple(replace(NUMBER, name=name) for name in names))
+    figure = history_figure(replace(FOUND, changes=(many, replace(many, location="joint 4"))))
+    figure.canvas.draw()
+    boxes = [axes.yaxis.label.get_window_extent() for axes in figure.axes]
+    assert len(boxes) == 8
+    assert all(above.y0 > below.y1 for above, below in itertools.pairwise(boxes))
+    assert min(box.x0 for box in boxes) >= 0

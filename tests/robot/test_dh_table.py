@@ -64,11 +64,19 @@ def test_decimal_commas_and_the_modified_convention():
     [
         ("", "rows of a, alpha, d, theta"),
         ("1 2 3 4\n1 2", "line 2"),
-        ("a alpha d\n1 two 3", "line 2: found 'two'"),
+        ("a alpha d\n1 two 3", "line 2, column alpha: found 'two'"),
         ("a alpha q\n1 2 3", "line 1"),
         ("a alpha d", "header alone"),
         ("1e9 0 0", r"dh\.joints\[0\]\.a_mm"),
         ("a alpha theta\n1 2 3", "a, alpha and d are needed"),
+        ("a,alpha,d,theta\n0,0,200,q1+q2", "line 2, column theta: found 'q1\\+q2'.*q2-90"),
+        ("a,alpha,d,theta\n0,0,200,L1", "line 2, column theta: found 'L1'"),
+        ("a,alpha,d,theta\n0,0,d3,0", "line 2, column d: found 'd3'; a number. A joint that slides"),
+        ("a,alpha,d,theta\n0,0,q3+100,0", "line 2, column d: found 'q3\\+100'"),
+        ("a,alpha,d,theta\na2,0,1,0", "line 2, column a: found 'a2'.*instead of its symbol"),
+        ("a [rad],alpha,d\n1,0,1", "lengths are in mm"),
+        ("a,a,alpha,d\n1,1,0,1", "is one column"),
+        ("alpha_{i-1},a_{i-1},d_i,θ_i\n0,0,200,q1", "Add --modified"),
     ],
 )
 def test_what_is_no_table_is_one_error(text, words):
@@ -90,7 +98,30 @@ def test_a_quarter_turn_in_radians_beside_degrees_is_refused_with_its_line():
     ):
         parse_dh_table(mixed, "arm")
     with pytest.raises(InputError, match=r"line 1, alpha: found '1\.5708'.*theta of line 2, -90"):
-        parse_dh_table("0 pi/2 89 0\n425 0 0 -90\n", "arm")
+        parse_dh_table("0 1.5708 89 0\n425 0 0 -90\n", "arm")
+    assert parse_dh_table("0 pi/2 89 0\n425 0 0 -90\n", "arm").dh.joints[0].alpha_deg == 90  # pi says its unit itself
     for sound in (mixed.replace("1.5708", "90"), mixed.replace("90", "0"), mixed.replace("1.5708", "1.51")):
         parse_dh_table(sound, "arm")
     parse_dh_table("a [mm];alpha [deg];d [mm]\n0;1.5708;89\n425;90;0\n", "arm")  # as it states
+
+
+def test_rows_between_blanks_keep_a_joints_angle_whole():
+    described = parse_dh_table("0 -90 290 q1\n270 0 0 q2 - 90\n70 -90 0 90 - q3\n", "arm")
+    assert [row.theta_offset_deg for row in described.dh.joints] == [0, -90, 90]
+    assert described.actuation[2] == {"q3": -1}
+
+
+def test_headings_as_papers_print_them():
+    latex = "joint & $\\theta_i$ & $d_i$ [cm] & a_i (mm) & α_i / rad\n1 & $\\theta_1$ & 29 & 0 & -1.5\n"
+    row = parse_dh_table(latex, "arm").dh.joints[0]
+    assert (row.d_mm, row.alpha_deg) == (290, pytest.approx(np.degrees(-1.5)))
+    craig = parse_dh_table("α_{i-1},a_{i-1},d_i,θ_i\n0,0,200,q1\n-pi/2,0,0,q2\n", "arm", "modified")
+    assert [row.alpha_deg for row in craig.dh.joints] == [0, -90]
+
+
+def test_an_offset_in_a_column_of_its_own_is_added_wherever_the_column_stands():
+    for head, row in (("theta,offset", "q2,-90"), ("offset,theta", "-90,q2")):
+        joints = parse_dh_table(
+            f"a,alpha,d,{head}\n0,90,200,{'q1,0' if row[0] == 'q' else '0,q1'}\n0,0,0,{row}\n", "arm"
+        )
+        assert joints.dh.joints[1].theta_offset_deg == -90

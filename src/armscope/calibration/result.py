@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -78,6 +78,14 @@ class Calibration(InWords):
         return rms_distance(self.residuals)
 
     @property
+    def rms_without_compliances(self) -> float | None:
+        """The same, m, of the arm's constants alone, as a controller takes them; None where no compliance is fitted."""
+        if not self.state.compliances.any():
+            return None
+        rigid = replace(self.state, compliances=np.zeros_like(self.state.compliances))
+        return rms_distance(self.set_up.residuals(rigid))
+
+    @property
     def nominal_serves(self) -> bool:
         """Whether constants were fitted that help no pose that took no part: base and tool alone do as well."""
         return self.level != "nominal" and no_gain(self.misses)
@@ -146,6 +154,7 @@ def in_words(calibration: Calibration) -> str:
     if arm.description.urdf is not None and arm.description.actuation is None:
         motors = ", ".join(f"q{motor} {name}" for motor, name in enumerate(arm.joint_names, start=1))
         lines.append(f"motors: {motors}")
+    lines += _elastic(calibration)
     lines += calibration.notes
     lines += [f"doubtful: {doubt}" for doubt in calibration.doubts]
     if len(suspects := calibration.ids[calibration.suspects]):
@@ -175,6 +184,18 @@ def _parameter(name: str, unit: str, value: float, stderr: float, nominal: float
             becomes = f"{np.degrees(after):.5g} deg" if unit == "rad" else f"{1e3 * after:.6g} mm"
             beside = f"  (becomes {becomes})" if stderr < UNDETERMINED[unit] else "  (undetermined: see its error)"
     return f"  {name:<28} {value * factor:12.5g} +- {stderr * factor:.2g} {shown}{beside}"
+
+
+def _elastic(calibration: Calibration) -> list[str]:
+    """That constants which were fitted beside compliances hold only together with them."""
+    alone = calibration.rms_without_compliances
+    if alone is None or calibration.nominal_serves:  # then they are not written
+        return []
+    return [
+        f"the constants hold together with the compliances, which are in frames.yaml (robot.yaml and URDF have no "
+        f"place for them): without them {alone * 1e3:.4g} mm are left of these rows, with them "
+        f"{calibration.rms_distance * 1e3:.4g} mm. A controller without such a model wants `--level geometric`"
+    ]
 
 
 def _misses(calibration: Calibration) -> list[str]:

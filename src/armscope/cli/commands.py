@@ -179,16 +179,19 @@ def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
 
 
 def _refuse_file(paths: list[Path], needed: str) -> None:
-    """What several files go into is no file, and --force makes it none.
+    """What several files go into is no file, and --force makes it none; nor is it standard output.
 
     Args:
         paths: where a command writes.
         needed: what it should be.
 
     Raises:
-        InputError: a folder is needed, and a file is there.
+        InputError: a folder is needed, and a file or a stream is there.
     """
     for path in paths if needed.startswith("folder") else ():
+        if is_stream(path):
+            rule = f"needed here: {needed}"
+            raise InputError(path, "", "no folder, but a stream", rule, "Several files are written: name a folder.")
         if path.exists() and not path.is_dir():
             raise InputError(path, "", "a file", f"needed here: {needed}", "Choose another name.")
 

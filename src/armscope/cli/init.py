@@ -66,7 +66,7 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
         from armscope.recordings.importing.draft_motions import draft_any_mapping
 
         text = draft_any_mapping(what)
-        return text, [line.strip() for line in text.splitlines() if "# guessed" in line]
+        return text, [line.strip() for line in text.splitlines() if "# guessed" in line or "# to fill in" in line]
     else:
         file = nominal_file(what)
         text = file.read_text(encoding="utf-8")

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-ASSUMED_NOISE_MM = 0.05
-"""Tracker and repeatability of a good industrial arm together, 1-sigma per axis, where robot.yaml states none."""
-
 
 @app.command()
 def poses(
@@ -60,8 +57,7 @@ def poses(
     arm = robot_of(robot)
 
     from armscope.core.files import write_table
-    from armscope.poses.choose import by_other_criteria
-    from armscope.poses.compare import compare_sets
+    from armscope.poses.compare import RivalOptions
     from armscope.poses.options import PoseOptions
     from armscope.poses.output import write_choice
     from armscope.report.figures.pose_choice import choice_figure
@@ -69,9 +65,9 @@ def poses(
 
     asked = PoseOptions(effects, criterion, tracker, floor_mm, radius_mm, payload_kg, candidates, starts, seed)
     choice = asked.choose(arm, count)
-    noise, source = _noise(noise_mm, arm.sigma)
-    others = by_other_criteria(choice, seed, starts) if all_criteria and seeds else {}
-    compared = compare_sets(choice, noise, seeds, seed, payload_kg, others) if seeds else None
+    rivals = RivalOptions(seeds, noise_mm, all_criteria)
+    noise, source = rivals.noise(arm.sigma)
+    compared = rivals.compare(choice, asked)
     write_choice(output, choice, compared, noise, source)
     if compared is not None and not is_stream(output):
         write_table(output.with_name(f"{output.stem}_compared.csv"), compared)
@@ -79,14 +75,6 @@ def poses(
         save_figure(choice_figure(compared, title), output.with_suffix(".png"), formats=("png", "svg"))
     _tell(choice, source, noise)
     print(output)
-
-
-def _noise(noise_mm: float | None, sigma: float | None) -> tuple[float, str]:
-    if noise_mm is not None:
-        return noise_mm * 1e-3, "stated by --noise-mm"
-    if sigma is not None:
-        return sigma, "stated by robot.yaml"
-    return ASSUMED_NOISE_MM * 1e-3, "assumed"
 
 
 def _tell(choice: Choice, source: str, noise: float) -> None:

@@ -30,15 +30,13 @@ from armscope.core.inputs import DATA_FRAME, InputError
 from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
-from armscope.notebook.chosen import ChosenPoses
+from armscope.notebook.chosen import ChosenPoses, poses_by_options
 from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.notes import PosesWarning, with_notes
 from armscope.notebook.result import Diagnosed
 from armscope.physics.model import FittedModel
 from armscope.physics.model_file import load_model
-from armscope.poses.body_words import surroundings_notes
-from armscope.poses.options import PoseOptions
 from armscope.recordings import Recordings, as_recordings
 from armscope.recordings import read_recordings as read_table
 from armscope.recordings.first_lines import is_motion_table
@@ -287,7 +285,8 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:
         robot: the nominal arm.
         count: how many to measure.
         options: those of the command line: effects, criterion, tracker, floor_mm, radius_mm, payload_kg, candidates,
-            starts, seed (``effects="joint_compliance", floor_mm=0, tracker=(4000, 0, 1500)``).
+            starts, seed (``effects="joint_compliance", floor_mm=0, tracker=(4000, 0, 1500)``); seeds, noise_mm and
+            all_criteria of the comparison with random poses and a grid (``seeds=40``; none is made without seeds).
 
     Returns:
         The chosen poses and what they are worth.
@@ -295,6 +294,4 @@ def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:
     Raises:
         InputError: something that can't be used.
     """
-    refuse_unknown("choose_poses", options, [each.name for each in fields(PoseOptions)])
-    choice = PoseOptions(**options).choose(arm := read_robot(robot), count)
-    return with_notes((ChosenPoses(**vars(choice)), surroundings_notes(arm, choice.around)), PosesWarning)
+    return with_notes(poses_by_options(read_robot(robot), count, options), PosesWarning)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -11,10 +12,41 @@ from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.design.indices import all_indices
 from armscope.poses.candidates import candidates
-from armscope.poses.choose import Choice, grid_choice, random_choice
+from armscope.poses.choose import Choice, by_other_criteria, grid_choice, random_choice
 from armscope.poses.constants import CHOOSING
+from armscope.poses.options import PoseOptions
 from armscope.poses.target_parameters import TargetParameters
 from armscope.recordings import Recordings
+
+
+@dataclass(frozen=True)
+class RivalOptions:
+    """What a choice is compared with, by the names of the command line.
+
+    Attributes:
+        seeds: simulated arms in the comparison with random poses and a grid; 0: none is made.
+        noise_mm: 1-sigma per axis; None: robot.yaml's, else `CHOOSING.noise_mm`.
+        all_criteria: whether the choices by the other four criteria are compared, too.
+    """
+
+    seeds: int = 0
+    noise_mm: float | None = None
+    all_criteria: bool = False
+
+    def noise(self, sigma: float | None) -> tuple[float, str]:
+        """Noise of an arm's points, m, and who says so; `sigma` is robot.yaml's, m."""
+        if self.noise_mm is not None:
+            return self.noise_mm * 1e-3, "stated by --noise-mm"
+        return (CHOOSING.noise_mm * 1e-3, "assumed") if sigma is None else (sigma, "stated by robot.yaml")
+
+    def compare(self, choice: Choice, asked: PoseOptions) -> pd.DataFrame | None:
+        """A choice as it was asked for, against its rivals, see `compare_sets`; None where no arm is simulated."""
+        if not self.seeds:
+            return None
+        noise, _ = self.noise(choice.targets.arm.sigma)
+        others = by_other_criteria(choice, asked.seed, asked.starts) if self.all_criteria else {}
+        return compare_sets(choice, noise, self.seeds, asked.seed, asked.payload_kg, others)
+
 
 RIVALS = ("random", "grid")
 

@@ -116,6 +116,12 @@ class ChoosingRules(Constants):
     shorter_rad: float = constant(
         1e-9, "by which the way must become shorter, or the rounds end", "derived: far above rounding", unit="rad"
     )
+    noise_mm: float = constant(
+        0.05,
+        "noise of points where neither an option nor robot.yaml states one, 1-sigma per axis",
+        "judgement: tracker and repeatability of a good industrial arm together",
+        unit="mm",
+    )
     held_out: int = constant(
         300,
         "possible poses of another sequence at which a fitted arm is asked",

@@ -20,8 +20,19 @@ ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
 """Of the tool point, measured minus nominal, in tables of studies."""
 QUATERNION = ["qw", "qx", "qy", "qz"]
 
-UNITS: dict[str, float] = {"rad": 1.0, "deg": np.pi / 180, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
-"""SI of one. Tables of raw files may be in centimetres and inches; those of armscope are not."""
+UNITS: dict[str, float] = {
+    "rad": 1.0,
+    "mrad": 1e-3,
+    "deg": np.pi / 180,
+    "gon": np.pi / 200,
+    "um": 1e-6,
+    "mm": 1e-3,
+    "cm": 1e-2,
+    "m": 1.0,
+    "in": 0.0254,
+    "ft": 0.3048,
+}
+"""SI of one. Tables of raw files may be in centimetres, inches or gons; those of armscope are not."""
 
 
 @dataclass(frozen=True)

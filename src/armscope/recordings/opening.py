@@ -13,9 +13,10 @@ from armscope.core.inputs import InputError, note_read, unreadable, why_unreadab
 from armscope.recordings.constants import PIECES
 
 GZIP = b"\x1f\x8b"
+SHEET = "Save the sheet as CSV; or `armscope init` it: mappings read workbooks (`format: {kind: workbook}`)."
 OTHER_THAN_TEXT: tuple[tuple[bytes, str, str], ...] = (
-    (b"PK\x03\x04", "a zip archive, such as an Excel workbook", "Save the sheet as CSV."),
-    (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "Save the sheet as CSV."),
+    (b"PK\x03\x04", "a zip archive, such as an Excel workbook", SHEET),
+    (b"\xd0\xcf\x11\xe0", "an old Excel workbook, or one with a password", "Save the sheet as CSV."),
     (b"MATLAB 5.0", "a MATLAB file", "`armscope import` reads it with `format: {kind: matlab}`."),
     (b"MATLAB 7.3", "a MATLAB 7.3 file", "Save it with -v7 in MATLAB; `armscope import` reads that."),
     (b"\x89HDF", "an HDF5 file", "Save the numbers as text where the file comes from."),

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-import math
 import re
+import unicodedata
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 from armscope.core.inputs import InputError, validate
-from armscope.robot.constants import GUESSES, PASTED
+from armscope.robot.constants import PASTED
 from armscope.robot.description import RobotDescription
+from armscope.robot.dh_cells import DHCell, DHLine, read_dh_cell, written_plainly
+from armscope.robot.dh_joints import TABLE, ThetaCell, motors_of_rows
+from armscope.robot.dh_units import MILLIMETRES, all_units, in_file_units
 
-HEADING = re.compile(r"\s*(.*?)[\s_]*[\[(]?(mm|m|deg|rad|°)?[\])]?\s*", re.DOTALL)
+HEADING = re.compile(r"\s*(.*?)[\s_]*[\[(/,]?\s*(mm|cm|m|inch|in|deg|degrees|rad|°)?[\])]?\s*", re.DOTALL)
 """A column's word, and its unit in brackets."""
+SUBSCRIPT = re.compile(r"[\s_]*(?P<before>[ijn]\s*-\s*1)?([ijn]|offset)?$")
+"""Below a column's word; Craig's convention counts a and alpha by the link before."""
 COLUMNS = {
     "theta_offset_deg": r"(theta|θ|offset|th)",
     "alpha_deg": r"(alpha|α|twist|al)",
@@ -32,7 +37,7 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
 
     Args:
         text: rows of numbers between blanks, tabs, commas, semicolons or bars; a header may name columns and units;
-            angles may be written with pi ("pi/2", "-π/2").
+            angles may be written with pi ("pi/2", "-π/2"), theta as a joint's angle ("q2 - 90", "-θ₃").
         name: of the arm.
         convention: of the rows: a table does not say it.
 
@@ -45,146 +50,147 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
     lines = [(number, line.strip().strip("|")) for number, line in enumerate(text.splitlines(), 1)]
     lines = [(number, line) for number, line in lines if re.search(r"[^\s|:+=-]", line) and not line.startswith("#")]
     if not lines:
-        raise InputError(
-            "D-H table", "", "nothing", "rows of a, alpha, d, theta are needed", "Paste them, end with Ctrl-D."
-        )
+        raise InputError(TABLE, "", "nothing", "rows of a, alpha, d, theta are needed", "Paste them, end with Ctrl-D.")
     if len(lines) > PASTED.rows:
-        raise InputError("D-H table", "", f"{len(lines)} lines", f"the rows of an arm, at most {PASTED.rows}")
+        raise InputError(TABLE, "", f"{len(lines)} lines", f"the rows of an arm, at most {PASTED.rows}")
     source: dict[str, str] = {}
     header = _cells(lines[0][1], lines[0][0])
     names: tuple[str, ...] = USUAL
     units: dict[str, str] = {}
-    if not any(_number(cell) is not None for cell in header[1:]):
-        names, units = _named(header, lines[0][0])
+    if not any(_is_value(cell) for cell in header[1:]):
+        names, units = _named(header, lines[0][0], convention)
         lines = lines[1:]
     if not lines:
-        raise InputError("D-H table", "", "a header alone", "rows of a, alpha, d, theta are needed")
+        raise InputError(TABLE, "", "a header alone", "rows of a, alpha, d, theta are needed")
     rows = [_row(line, number, names) for number, line in lines]
     if names is USUAL:
-        source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0])} numbers in a row)"
-    length = units.get("length") or _guess_length(rows, source)
-    if "angle" not in units:
-        _refuse_mixed_angles(rows, [number for number, _ in lines])
-    angle = units.get("angle") or _guess_angle(rows, source)
+        source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0].cells)} numbers in a row)"
+    units = all_units(units, rows, source)
     source["dh convention"] = "stated" if convention == "modified" else "guessed: standard; --modified says Craig's"
-    joints = [_in_file_units(row, length, angle) for row in rows]
-    content = {"name": name, "dh": {"convention": convention, "joints": joints}, "source": source}
-    return validate(RobotDescription, content, "D-H table")
+    joints = [in_file_units(row, units) for row in rows]
+    thetas = [
+        ThetaCell(row.number, row.theta, row.cells.get("theta_offset_deg"), joint.get("theta_offset_deg", 0.0))
+        for row, joint in zip(rows, joints, strict=True)
+    ]
+    content: dict[str, Any] = {"name": name, "dh": {"convention": convention, "joints": joints}, "source": source}
+    if (actuation := motors_of_rows(thetas, source)) is not None:
+        content["actuation"] = actuation
+    return validate(RobotDescription, content, TABLE)
 
 
 def _cells(line: str, number: int) -> list[str]:
-    separator = next((separator for separator in "|\t;," if separator in line), None)
-    cells = line.split() if separator is None else [cell.strip() for cell in line.split(separator)]
+    separator = next((separator for separator in "|\t;,&" if separator in line), None)
+    cells = _at_blanks(line) if separator is None else [cell.strip() for cell in line.split(separator)]
     if len(cells) > PASTED.cells:
-        raise InputError("D-H table", f"line {number}", f"{len(cells)} cells", "the four values of a D-H row")
+        raise InputError(TABLE, f"line {number}", f"{len(cells)} cells", "the four values of a D-H row")
     for cell in cells:
         if len(cell) > PASTED.cell:
-            raise InputError(
-                "D-H table", f"line {number}", cell, f"a number or a heading of at most {PASTED.cell} characters"
-            )
+            rule = f"a number or a heading of at most {PASTED.cell} characters"
+            raise InputError(TABLE, f"line {number}", cell, rule)
     return cells
 
 
-def _number(cell: str) -> float | None:
-    """A number, also as a multiple of pi or with a decimal comma."""
-    plain = cell.replace("π", "pi").replace("−", "-").replace(" ", "").replace("*", "").replace("°", "").lower()
-    found = re.fullmatch(r"([+-]?\d*\.?\d*)pi(?:/(\d+\.?\d*))?", plain)
-    if found:
-        factor = {"": 1.0, "+": 1.0, "-": -1.0}.get(found[1])
-        below = float(found[2] or 1)
-        return (float(found[1]) if factor is None else factor) * math.pi / below if below else None
-    try:
-        value = float(plain.replace(",", "."))
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
+def _at_blanks(line: str) -> list[str]:
+    """Cells between blanks; "q2 - 90" is one."""
+    cells: list[str] = []
+    for word in line.split():
+        joins = bool(cells) and written_plainly(cells[-1])[-1:] in ("+", "-") and len(cells[-1].strip()) > 1
+        if joins or (cells and written_plainly(word) in ("+", "-") and _names_joint(cells[-1])):
+            cells[-1] += f" {word}"
+        elif len(cells) > 1 and written_plainly(cells[-1]) in ("+", "-") and _names_joint(word):
+            cells[-2:] = [f"{cells[-2]} {cells[-1]} {word}"]
+        else:
+            cells.append(word)
+    return cells
 
 
-def _named(header: Sequence[str], number: int) -> tuple[tuple[str, ...], dict[str, str]]:
-    """What the header's columns are, and the units that it states."""
+def _names_joint(cell: str) -> bool:
+    read = read_dh_cell(cell)
+    return read is not None and read.turns != 0
+
+
+def _is_value(cell: str) -> bool:
+    """A number, or the angle of a joint that is numbered; "theta" alone is a heading."""
+    read = read_dh_cell(cell)
+    return read is not None and (not read.turns or read.joint is not None)
+
+
+def _named(header: Sequence[str], number: int, convention: Convention) -> tuple[tuple[str, ...], dict[str, str]]:
+    """What the header's columns are, and the units that it states for them."""
     names, units = [], {}
     for cell in header:
-        parts = HEADING.fullmatch(cell.lower())
+        plain = re.sub(r"[${}\\]", "", unicodedata.normalize("NFKC", cell)).replace("\u2212", "-").lower()
+        parts = HEADING.fullmatch(plain)
         assert parts is not None  # whatever stands before a unit is the word
         word, unit = parts.groups()
-        word = re.sub(r"[\s_]*(i|j|offset)?$", "", word) or word
+        below = SUBSCRIPT.search(word)
+        if below and below["before"] and convention == "standard":
+            rule = "a and alpha of the link before are Craig's (modified) convention"
+            raise InputError(TABLE, f"line {number}", cell, rule, "Add --modified.")
+        word = SUBSCRIPT.sub("", word) or word
         found = next((key for key, pattern in COLUMNS.items() if re.fullmatch(pattern, word)), None)
         if found is None:
-            raise InputError(
-                "D-H table", f"line {number}", cell, "columns are a, alpha, d, theta, with units in brackets"
-            )
+            raise InputError(TABLE, f"line {number}", cell, "columns are a, alpha, d, theta, with units in brackets")
+        if found in names and found not in ("", "theta_offset_deg"):
+            raise InputError(TABLE, f"line {number}", cell, "each of a, alpha and d is one column")
         if unit and found:
-            units["angle" if found.endswith("deg") else "length"] = "deg" if unit == "°" else unit
+            units[found] = _allowed_unit(unit, found, cell, number)
         names.append(found)
     if not {"a_mm", "alpha_deg", "d_mm"} <= set(names):
-        raise InputError("D-H table", f"line {number}", " ".join(header), "a, alpha and d are needed in every row")
+        raise InputError(TABLE, f"line {number}", " ".join(header), "a, alpha and d are needed in every row")
     return tuple(names), units
 
 
-def _row(line: str, number: int, names: tuple[str, ...]) -> dict[str, float]:
+def _allowed_unit(unit: str, column: str, cell: str, number: int) -> str:
+    unit = "deg" if unit in ("°", "degrees") else unit
+    if (unit in MILLIMETRES) == column.endswith("mm"):
+        return unit
+    rule = "lengths are in mm, cm, m or in" if column.endswith("mm") else "angles are in deg or rad"
+    raise InputError(TABLE, f"line {number}", cell, rule)
+
+
+def _row(line: str, number: int, names: tuple[str, ...]) -> DHLine:
     cells = _cells(line, number)
-    if names is USUAL and len(cells) in (4, 5) and not re.search(r"\d", cells[0]):
+    if names is USUAL and len(cells) in (4, 5) and not re.search(r"\d", cells[0]) and not _names_joint(cells[0]):
         cells = cells[1:]
     if not (len(cells) == len(names) or (names is USUAL and len(cells) == 3)):
-        cure = "A row is a, alpha, d and, where it is not zero, theta."
-        raise InputError("D-H table", f"line {number}", line, f"{len(names)} numbers in a row", cure)
-    row = {}
+        cure = "A row is a, alpha, d and, where it is not zero, theta (q2-90 without blanks)."
+        raise InputError(TABLE, f"line {number}", line, f"{len(names)} numbers in a row", cure)
+    read: dict[str, DHCell] = {}
+    theta = ""
     for name, cell in zip(names, cells, strict=False):
-        if not name:
+        if not name or (name == "theta_offset_deg" and written_plainly(cell) in ("", "-")):
             continue
-        value = _number(cell)
-        if value is None and name == "theta_offset_deg":  # "q1", "theta1": the joint's own angle
-            value = 0.0
-        if value is None:
-            raise InputError("D-H table", f"line {number}", cell, "a number, or a multiple of pi")
-        row[name] = value
-    return row
+        value = read_dh_cell(cell)
+        if value is None or not _fits(value, name):
+            raise InputError(TABLE, f"line {number}, column {name.partition('_')[0]}", cell, *_what_fits(name))
+        if name == "theta_offset_deg":
+            theta = f"{theta} {cell}".strip()
+            value = _both(read[name], value, number, theta) if name in read else value
+        read[name] = value
+    return DHLine(number, read, theta)
 
 
-def _guess_length(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
-    most = max(abs(row[name]) for row in rows for name in ("a_mm", "d_mm"))
-    unit = "m" if 0 < most < GUESSES.metres_up_to else "mm"
-    source["dh lengths"] = f"guessed: {unit}, since the longest is {most:g}"
-    return unit
+def _both(one: DHCell, other: DHCell, number: int, text: str) -> DHCell:
+    """A joint's angle in a column of its own, and what is added to it in another."""
+    if one.turns and other.turns:
+        raise InputError(TABLE, f"line {number}, column theta", text, "one joint's angle stands in a row")
+    sums = {key: getattr(one, key) + getattr(other, key) for key in ("plain", "degrees", "radians", "turns")}
+    return DHCell(**sums, joint=one.joint if one.turns else other.joint)
 
 
-def _guess_angle(rows: Sequence[dict[str, float]], source: dict[str, str]) -> str:
-    most = max(abs(row.get(name, 0.0)) for row in rows for name in ("alpha_deg", "theta_offset_deg"))
-    unit = "rad" if 0 < most < GUESSES.radians_up_to else "deg"
-    source["dh angles"] = f"guessed: {unit}, since the largest is {most:g}"
-    return unit
+def _fits(value: DHCell, name: str) -> bool:
+    if name == "theta_offset_deg":
+        return True
+    return not value.turns and (name == "alpha_deg" or not (value.degrees or value.radians))
 
 
-def _refuse_mixed_angles(rows: Sequence[dict[str, float]], numbers: Sequence[int]) -> None:
-    """Quarter turns in radians beside angles that can only be degrees: whichever unit is guessed, some are wrong.
-
-    Args:
-        rows: the table's.
-        numbers: the lines that they stand in.
-
-    Raises:
-        InputError: there are both.
-    """
-    angles = [
-        (number, name.partition("_")[0], row.get(name, 0.0))
-        for number, row in zip(numbers, rows, strict=True)
-        for name in ("alpha_deg", "theta_offset_deg")
-    ]
-    line, name, most = max(angles, key=lambda each: abs(each[2]))
-    if abs(most) < GUESSES.radians_up_to:
-        return
-    for number, word, value in angles:
-        quarters = round(value / (math.pi / 2))
-        if (
-            quarters
-            and abs(value - quarters * math.pi / 2) < GUESSES.as_written_rad
-            and abs(value) < GUESSES.radians_up_to
-        ):
-            rule = f"this is {90 * quarters} degrees in radians, where {name} of line {line}, {most:g}, is in degrees"
-            cure = f"Write {90 * quarters}, or say the unit in a header: a [mm], alpha [deg], d [mm], theta [deg]."
-            raise InputError("D-H table", f"line {number}, {word}", f"{value:.6g}", rule, cure)
-
-
-def _in_file_units(row: dict[str, float], length: str, angle: str) -> dict[str, float]:
-    factors = {"mm": 1e3 if length == "m" else 1.0, "deg": 180 / math.pi if angle == "rad" else 1.0}
-    return {name: round(value * factors[name.rpartition("_")[2]], 9) for name, value in row.items()}
+def _what_fits(name: str) -> tuple[str, str]:
+    """What may stand in a column, and what to do about anything else."""
+    if name == "theta_offset_deg":
+        rule = "a number, or a joint's angle with a number or a multiple of pi added: q2, q2-90, -q3+pi/2"
+        return rule, "Coupled joints are stated by `actuation` in robot.yaml: write q2 here, and the sum there."
+    if name == "alpha_deg":
+        return "a number, or a multiple of pi", ""
+    cure = "A joint that slides (d3, q3+100) is no row here: write its length where it is held, or give a URDF."
+    return "a number", cure if name == "d_mm" else "Write the length instead of its symbol."

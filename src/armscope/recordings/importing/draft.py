@@ -11,13 +11,22 @@ import yaml
 
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
-from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.constants import DRAFT, LIMITS
+from armscope.recordings.importing.draft_motors import (
+    BESIDE,
+    JOINT,
+    in_a_row,
+    largest_of,
+    motor_columns,
+    numbered_columns,
+    ur_joints,
+    words_of,
+)
 from armscope.recordings.importing.draft_orientations import orientation_lines
-from armscope.recordings.importing.draft_points import COMMANDED, MEASURED, points_of
+from armscope.recordings.importing.draft_points import points_of
+from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
-    below_name,
     column_list,
     first_table,
     printable,
@@ -25,34 +34,16 @@ from armscope.recordings.importing.first_table import (
 )
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
 
-JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})(?!\d)[\])]?(?P<rest>\D*)")
-"""A column of one motor: words, its number, and what may follow: a unit, words."""
-ANGLE_WORDS = (
-    *("q", "j", "joint", "theta", "th", "axis", "axe", "achse", "gelenk", "a", "angle", "ang", "pos", "position"),
-    *("encoder", "motor", "rax", "s"),
-)
-BESIDE = {
-    "torque": ("tau", "torque", "trq", "moment", "effort"),
-    "speed": ("dq", "qd", "v", "vel", "velocity", "speed", "omega"),
-    "approach": ("approach", "dir", "direction"),
-}
 RUNS = r"(run|session|series|campaign|lauf|serie|messreihe|sitzung)([\s_]?(id|name|no|nr|number))?"
+LOADS = "payload|load|last|nutzlast|traglast|charge|charge utile|carga|carga útil|carga util|carico|负载"
 SCALARS = {
-    "payload": r"(payload|load|last|nutzlast|traglast)([\s_.\[(]*kg)?[\])]?",
-    "temperature": r"temp(eratur|erature)?([\s_.\[(]*(°?c|degc))?[\])]?",
+    "payload": rf"({LOADS})([\s_.\[(]*kg)?[\])]?",
+    "temperature": r"(temp|temperatur|temperature|température|temperatura)([\s_.\[(]*(°?c|degc))?[\])]?",
 }
-NOT_ANGLES = ("current", "i", "temp", "temperature", "volt", "m", "ddq", "qdd", "acc")
-MAKERS_LETTERS = ("s", "l", "u", "r", "b", "t")
-"""How Yaskawa-Motoman names the six motors of an arm, from the base to the tool."""
-UR_JOINTS = (
-    ("shoulder pan", "shoulder lift", "elbow", "wrist 1", "wrist 2", "wrist 3"),
-    ("base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"),
-)
-"""The six joints of a Universal Robots arm, from the base on; its logs have them in the order of the alphabet, too."""
 
 
 def draft_mapping(path: Path | str) -> str:
@@ -74,10 +65,11 @@ def draft_mapping(path: Path | str) -> str:
         shown = ", ".join(quoted(printable(name)) for name in unused[: LIMITS.unused_named])
         lines += [f"# not used: {shown}{', ...' * (len(unused) > LIMITS.unused_named)}"]
     text = "\n".join([HEAD.format(printable(path.name), "recordings.csv"), *lines, ""])
-    validate(Mapping, yaml.safe_load(text), path)
+    validate(Mapping, yaml.safe_load(filled_in(text)), path)
     return text
 
 
+OTHER_ENCODING = "The text is not UTF-8: if names look wrong, save it as `CSV UTF-8`. "
 HEAD = (
     "# A draft for {}: read every guess, mend it where it is wrong, then\n"
     "# armscope import TABLE --mapping mapping.yaml -o {}"
@@ -94,19 +86,25 @@ def _closed_by_words(table: ForeignTable, columns: Sequence[int]) -> list[int]:
 
 def format_lines(table: ForeignTable) -> Iterator[str]:
     """How the table is cut, as a mapping says it."""
-    stated = {"delimiter": table.delimiter, "decimal": table.decimal}
-    parts = [f'{key}: "{value}"' for key, value in stated.items()]
+    cut = table.cut
+    parts = [f"kind: workbook, sheet: {quoted(cut.sheet)}"] if cut.sheet else [f'delimiter: "{cut.delimiter}"']
+    parts += [f'decimal: "{cut.decimal}"'] if not cut.sheet or cut.decimal != "." else []
+    parts += [f'thousands: "{cut.thousands}"'] if cut.thousands else []
     parts += ["header: false"] if not table.header else []
     parts += [f"skip_lines: {table.skip}"] if table.skip else []
     parts += ["below_header: 1"] if table.units else []
-    parts += [f"encoding: {table.encoding}"] if table.encoding != "utf-8-sig" else []
+    parts += [f"encoding: {cut.encoding}"] if cut.encoding not in ("", "utf-8-sig") else []
     of_numbers = np.flatnonzero(2 * np.isfinite(table.values).sum(axis=0) > len(table.values))
     words = table.words(of_numbers.tolist())
     words = [word for word in words if word.isprintable() and word not in TextFormat().missing]
     listed = ", ".join(quoted(word) for word in (*TextFormat().missing, *words[: LIMITS.unused_named]))
     parts += [f"missing: [{listed}]"] if words else []
     why = f"; {', '.join(quoted(printable(word)) for word in words[: LIMITS.unused_named])}: no value" if words else ""
-    yield f"format: {{{', '.join(parts)}}}   # guessed: most lines are cut alike by it{why}"
+    how = "most lines are cut alike by it"
+    if cut.sheet:
+        others = ", ".join(quoted(printable(name)) for name in cut.other_sheets[: LIMITS.unused_named])
+        how = "the first sheet with a table" + (f"; others: {others}" if others else "")
+    yield f"format: {{{', '.join(parts)}}}   # guessed: {how}{why}"
 
 
 def row_lines(table: ForeignTable, needed: Sequence[int]) -> Iterator[str]:
@@ -126,22 +124,23 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
         if not found:
             seen, line = ", ".join(table.names[: LIMITS.unused_named]), f"line {table.skip + 1}"
             rule = f"no columns look like {what}, nor like time, angles and torques or currents of a motion"
-            raise InputError(path, line, seen, rule, by_hand(table.names, str(path)))
-    numbers = table.values[:, angles]
-    largest = _largest(numbers)
-    stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
+            cure = by_hand(table.names, str(path))
+            cure = OTHER_ENCODING + cure if table.cut.encoding == "latin-1" else cure
+            raise InputError(path, line, seen, rule, cure)
+    largest = largest_of(table.values[:, angles])
+    stated, why = unit_of(table, angles, ANGLE_UNITS)
     unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
-    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
-    why = "guessed: Grad is German for degrees" if "grad" in _words(table.names[angles[0]]) else why
+    why = why or f"guessed: none is beyond {largest:.4g}"
+    why = "guessed: Grad is German for degrees" if "grad" in words_of(table.names[angles[0]]) else why
     unnumbered = table.header and not any(JOINT.fullmatch(table.names[column].strip()) for column in angles[:1])
-    of_ur = angles == _ur_joints(table)
+    of_ur = angles == ur_joints(table)
     why += "; the joints of a UR, from the base on" if of_ur else ""
     why += "; no numbers in the names: in the table's order" if unnumbered and not of_ur else ""
     yield f"  angles: {{columns: {column_list(table, angles)}, unit: {unit}}}   # {why}; columns by likeness of names"
-    largest = _largest(table.values[:, points])
-    stated = stated_unit(table.names[points[0]], below_name(table, points[0]), LENGTH_UNITS)
+    largest = largest_of(table.values[:, points])
+    stated, why = unit_of(table, points, LENGTH_UNITS)
     unit = stated or ("m" if largest <= DRAFT.metres_up_to else "mm")
-    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
+    why = why or f"guessed: none is beyond {largest:.4g}"
     why += "; columns by likeness of names"
     if len(reflectors) == 1:
         yield f"  position: {{columns: {column_list(table, points)}, unit: {unit}}}   # {why}"
@@ -152,101 +151,12 @@ def _guess_columns(path: Path, table: ForeignTable) -> Iterator[str]:
     yield from _further(table, len(angles), {*angles, *points}, of_one_point=len(reflectors) == 1)
 
 
-def _largest(values: Array) -> float:
-    known = values[np.isfinite(values)]
-    return float(np.abs(known).max()) if len(known) else 0.0
-
-
-def numbered_columns(table: ForeignTable) -> dict[str, dict[int, int]]:
-    """Columns that are numbered, by what stands before the number: {word: {number: column}}."""
-    groups: dict[str, dict[int, int]] = {}
-    for column, name in enumerate(table.names):
-        found = JOINT.fullmatch(name.strip())
-        if table.header and found and np.isfinite(table.values[:, column]).any():
-            behind = _without_unit(found["rest"].lower())
-            groups.setdefault(f"{found['word'].lower()} {behind}".strip(), {}).setdefault(int(found["number"]), column)
-    return groups
-
-
-def _words(name: str) -> list[str]:
-    return [part for part in re.split(r"[^a-z°]+", name.lower()) if part]
-
-
-def _without_unit(words: str) -> str:
-    """What stands behind a number, without the unit at its end: `_rad`, ` [Grad]`, ` angle (deg)`."""
-    bare = words.strip(" _.-")
-    whole = bare.strip("[]() ")
-    units = {*ANGLE_UNITS, *LENGTH_UNITS, *OTHER_UNITS}
-    if whole in units:
-        return ""
-    ends = re.fullmatch(r"(.*?)[\s_.\-\[(]+([^\s_.\-\[(]+?)[\])]?", bare)
-    return ends[1].strip(" _.-[]()") if ends and ends[2] in units else bare
-
-
-def _ur_joints(table: ForeignTable) -> list[int]:
-    """Columns of angles named as Universal Robots' joints, from the base on; none where one is missing."""
-    beside = {"joint", "q", "pos", "position", "angle", *ANGLE_UNITS}
-    named: dict[str, int] = {}
-    for column, name in enumerate(table.names if table.header else ()):
-        words = [word for word in re.findall(r"[a-z]+|\d+", name.lower()) if word not in beside]
-        if np.isfinite(table.values[:, column]).any():
-            named.setdefault(" ".join(words), column)
-    return next(([named[joint] for joint in joints] for joints in UR_JOINTS if set(joints) <= set(named)), [])
-
-
-def _named_joints(table: ForeignTable) -> list[int]:
-    """Columns of angles named by joint, as in a URDF (`elbow_joint`), or by a maker's letters, in the table's order."""
-    bare = {_words(name)[0]: column for column, name in reversed([*enumerate(table.names)]) if _words(name)}
-    if table.header and set(MAKERS_LETTERS) <= set(bare):
-        return [bare[letter] for letter in MAKERS_LETTERS]
-    others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
-    named = [column for column, name in enumerate(table.names) if table.header and "joint" in _words(name)]
-    known = [column for column in named if np.isfinite(table.values[:, column]).any()]
-    return [column for column in known if not set(_words(table.names[column])) & others]
-
-
-def in_a_row(group: dict[int, int]) -> list[int]:
-    """The columns numbered 1, 2, ... (or 0, 1, ...) without a gap; none where there are fewer than an arm has."""
-    start = 0 if 0 in group else 1
-    count = next(n for n in range(start, start + len(group) + 1) if n not in group) - start
-    return [group[start + n] for n in range(count)] if count >= DRAFT.fewest_motors else []
-
-
-def motor_columns(table: ForeignTable) -> list[int]:
-    """The columns that look like motor angles, from the base on; none where none do."""
-    if not table.header:
-        return _leading(table)
-    ranked = []
-    for word, group in numbered_columns(table).items():
-        parts = [part for part in re.split(r"[^a-z]+", word) if part]
-        others = {each for names in BESIDE.values() for each in names} | set(NOT_ANGLES)
-        columns = in_a_row(group)
-        if not columns or not set(parts) & set(ANGLE_WORDS) or set(parts) & (others - set(ANGLE_WORDS)):
-            continue
-        commanded = bool(set(parts) & set(COMMANDED)) - bool(set(parts) & set(MEASURED))
-        ranked.append((commanded, len(columns), -columns[0], columns))
-    named = _ur_joints(table) or _named_joints(table)
-    if len(named) >= DRAFT.fewest_motors and all(len(named) > count for _, count, *_ in ranked):
-        return named
-    return max(ranked)[-1] if ranked else []
-
-
-def _leading(table: ForeignTable) -> list[int]:
-    """Without names: columns from the left that stay within a turn, the three behind them being the point."""
-    spans = [_largest(table.values[:, [column]]) for column in range(table.values.shape[1])]
-    count = len(spans) - 3
-    return list(range(count)) if count >= DRAFT.fewest_motors and max(spans[:count]) <= POSSIBLE.angle_deg else []
-
-
 def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: bool) -> Iterator[str]:
     """Context by names alone; several reflectors have names already, and no orientation each."""
     if not table.header:
         return
     for group, columns in _per_motor(table, n_motors, taken).items():
-        unit = ", unit: rad/s" if group == "speed" else ""
-        say = {"torque": "N m, positive along gravity's pull: check the sign", "speed": "unit guessed: rad/s"}
-        listed = column_list(table, columns)
-        yield f"  {group}: {{columns: {listed}{unit}}}   # guessed by name; {say.get(group, '-1, +1')}"
+        yield _of_motors(table, group, columns)
     small = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     if of_one_point:
         yield from orientation_lines(table, taken)
@@ -270,6 +180,19 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
             yield f"  {line.format(quoted(table.names[match]))}   # guessed by name"
 
 
+def _of_motors(table: ForeignTable, group: str, columns: list[int]) -> str:
+    """The line of speeds, torques or sides of approach; torques in another unit than N m are not taken."""
+    listed = column_list(table, columns)
+    if group == "speed":
+        unit, why = unit_of(table, columns, SPEED_UNITS)
+        said = why or "unit guessed: rad/s"
+        return f"  speed: {{columns: {listed}, unit: {unit or 'rad/s'}}}   # guessed by name; {said}"
+    if group == "torque" and unit_of(table, columns, TORQUE_UNITS)[0] == FILL_IN:
+        return f"  # torque: {{columns: {listed}}}   # guessed: not taken, the table states another unit than N m"
+    say = {"torque": "N m, positive along gravity's pull: check the sign"}
+    return f"  {group}: {{columns: {listed}}}   # guessed by name; {say.get(group, '-1, +1')}"
+
+
 def _all_different(numbers: Array) -> bool:
     """Whether these are numbers that count rows."""
     return bool(np.isfinite(numbers).all()) and len(np.unique(numbers)) == len(numbers)
@@ -278,7 +201,7 @@ def _all_different(numbers: Array) -> bool:
 def _per_motor(table: ForeignTable, n_motors: int, taken: set[int]) -> dict[str, list[int]]:
     found: dict[str, list[int]] = {}
     for word, group in numbered_columns(table).items():
-        parts = {part for part in re.split(r"[^a-z]+", word) if part}
+        parts = set(re.findall(r"[^\W\d_]+", word))
         columns = in_a_row(group)
         for name, words in BESIDE.items():
             if parts & set(words) and len(columns) == n_motors and not taken & set(columns):

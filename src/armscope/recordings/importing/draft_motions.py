@@ -11,28 +11,19 @@ import yaml
 
 from armscope.core.inputs import validate
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.draft import (
-    BESIDE,
-    HEAD,
-    RUNS,
-    SCALARS,
-    draft_mapping,
-    format_lines,
-    in_a_row,
-    motor_columns,
-    numbered_columns,
-)
+from armscope.recordings.importing.draft import HEAD, RUNS, SCALARS, draft_mapping, format_lines
+from armscope.recordings.importing.draft_motors import BESIDE, in_a_row, motor_columns, numbered_columns
 from armscope.recordings.importing.draft_points import points_of
+from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
-    below_name,
     column_list,
     first_table,
     printable,
     quoted,
 )
 from armscope.recordings.importing.motions import MotionMapping
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, stated_unit
+from armscope.recordings.importing.stated_units import MOTION_ANGLES, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows
 
 EFFORTS = {
@@ -43,6 +34,7 @@ EFFORTS = {
 WARMTH = ("temp", "temperature", "temperatur")
 TIME = r"(time|zeit|t|timestamp|clock)([\s_.\[(]*(s|ms|sec|seconds))?[\])]?"
 TIME_UNITS = {"s": "s", "sec": "s", "seconds": "s", "ms": "ms"}
+CURRENT_UNITS = {"a": "A", "amp": "A", "amps": "A", "ampere": "A", "ma": "mA"}
 MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
 
 
@@ -67,7 +59,7 @@ def draft_any_mapping(path: Path | str) -> str:
     ]
     lines += ["# not used: " + ", ".join(quoted(printable(name)) for name in unused)] if unused else []
     text = "\n".join([*lines, ""])
-    validate(MotionMapping, yaml.safe_load(text), path)
+    validate(MotionMapping, yaml.safe_load(filled_in(text)), path)
     return text
 
 
@@ -80,23 +72,24 @@ def _of_a_motion(table: ForeignTable) -> Iterator[str]:
     if not angles or time is None or not efforts or points_of(table, taken=angles):
         return
     step = float(np.nanmedian(np.diff(table.values[:, time]))) if len(table.values) > 1 else 0.0
-    stated = stated_unit(table.names[time], below_name(table, time), TIME_UNITS)
-    why = "stated by the table" if stated else f"guessed: samples are {step:.3g} apart"
+    stated, why = unit_of(table, [time], TIME_UNITS)
+    why = why or f"guessed: samples are {step:.3g} apart"
     unit = stated or ("s" if step <= DRAFT.seconds_up_to else "ms")
     yield f"  time: {{column: {quoted(table.names[time])}, unit: {unit}}}   # {why}"
     numbers = table.values[:, angles]
     largest = float(np.nanmax(np.abs(numbers))) if np.isfinite(numbers).any() else 0.0
-    stated = stated_unit(table.names[angles[0]], below_name(table, angles[0]), ANGLE_UNITS)
-    why = "stated by the table" if stated else f"guessed: none is beyond {largest:.4g}"
+    stated, why = unit_of(table, angles, MOTION_ANGLES)
+    why = why or f"guessed: none is beyond {largest:.4g}"
     unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
     listed = column_list(table, angles)
     yield f"  positions: {{columns: {listed}, unit: {unit}}}   # {why}; columns by likeness of names"
     speeds = _beside(table, BESIDE["speed"], angles)
     if speeds:
-        yield f"  speeds: {{columns: {column_list(table, speeds)}, unit: {unit}/s}}   # guessed by name, and its unit"
-    kind, columns = next(iter(efforts.items()))
-    say = {"torque": "N m; positive along the motion that it drives: check the sign", "current": "A; else say scale"}
-    yield f"  {kind}: {{columns: {column_list(table, columns)}}}   # guessed by name: {say[kind]}"
+        of_speed, why = unit_of(table, speeds, SPEED_UNITS)
+        of_speed = of_speed or ("rad/s" if unit == FILL_IN else f"{unit}/s")
+        listed = column_list(table, speeds)
+        yield f"  speeds: {{columns: {listed}, unit: {of_speed}}}   # guessed by name; {why or 'its unit is guessed'}"
+    yield _efforts(table, *next(iter(efforts.items())))
     if warm := _beside(table, WARMTH, angles):
         yield f"  temperatures: {{columns: {column_list(table, warm)}}}   # guessed by name: degrees Celsius"
     run = _called(names, MOTION_RUNS)
@@ -107,6 +100,19 @@ def _of_a_motion(table: ForeignTable) -> Iterator[str]:
             continue
         if (column := _called(names, pattern)) is not None and np.isfinite(table.values[:, column]).any():
             yield f"  {group}: {{column: {quoted(table.names[column])}}}   # guessed by name"
+
+
+def _efforts(table: ForeignTable, kind: str, columns: list[int]) -> str:
+    """The line of torques or currents; where the table states another unit, with a scale that is left open."""
+    known = TORQUE_UNITS if kind == "torque" else CURRENT_UNITS
+    unit, why = unit_of(table, columns, known)
+    say = {"torque": "N m; positive along the motion that it drives: check the sign", "current": "A; else say scale"}
+    listed, scale, said = column_list(table, columns), "", f"guessed by name: {say[kind]}"
+    if unit == FILL_IN:
+        scale, said = f", scale: {FILL_IN}", f"{why}: what to multiply by"
+    elif unit == "mA":
+        scale, said = ", scale: 0.001", f"{why}: mA"
+    return f"  {kind}: {{columns: {listed}{scale}}}   # {said}"
 
 
 def _called(names: dict[str, int], pattern: str) -> int | None:

@@ -12,12 +12,14 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.first_table import ForeignTable, below_name, column_list
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, stated_unit
+from armscope.recordings.importing.draft_units import unit_of
+from armscope.recordings.importing.first_table import ForeignTable, column_list
+from armscope.recordings.importing.stated_units import ANGLE_UNITS
 
 QUATERNION_PART = re.compile(
     r"(.*[\s_.\-/])?(q|quat|quaternion|rot|rotation|ori|orient|orientation|o)?[\s_.\-\[(]*(?P<part>[wxyz])[\])]?"
 )
+NUMBERED_PART = re.compile(r"(?:q|quat|quaternion|rot|ori|orient)[\s_.\-\[(]*([0-4])[\])]?")
 BY_ANGLES = {
     ("a", "b", "c"): "euler: {columns}, sequence: ZYX, unit: {unit}",
     ("w", "p", "r"): "euler: {columns}, sequence: xyz, unit: {unit}",
@@ -39,9 +41,11 @@ def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[s
         At most one line.
     """
     free = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
-    if columns := _quaternion(table, free):
+    named = _quaternion(table, free)
+    if columns := named or _numbered_quaternion(table, free):
         said = f"quaternion: {column_list(table, columns)}, order: wxyz"
-        yield f"  orientation: {{{said}}}   # guessed: their length is 1; leave it out where {COMPUTED}"
+        why = "their length is 1" if named else "their length is 1; w first, as ABB counts them"
+        yield f"  orientation: {{{said}}}   # guessed: {why}; leave it out where {COMPUTED}"
         return
     bare = {_without_unit(name): column for name, column in free.items()}
     for names, line in BY_ANGLES.items():
@@ -49,7 +53,7 @@ def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[s
             continue
         columns = [bare[name] for name in names]
         largest = np.nanmax(np.abs(table.values[:, columns]), initial=0.0)
-        stated = stated_unit(table.names[columns[0]], below_name(table, columns[0]), ANGLE_UNITS)
+        stated, _ = unit_of(table, columns, ANGLE_UNITS)
         unit = stated or ("rad" if largest <= DRAFT.radians_up_to else "deg")
         said = line.format(columns=column_list(table, columns), unit=unit)
         yield f"  # orientation: {{{said}}}   # guessed: not taken, as if {COMPUTED}"
@@ -62,9 +66,23 @@ def _quaternion(table: ForeignTable, free: dict[str, int]) -> list[int]:
     if set(parts) != set("wxyz"):
         return []
     columns = [parts[part] for part in "wxyz"]
+    return columns if _of_unit_length(table, columns) else []
+
+
+def _numbered_quaternion(table: ForeignTable, free: dict[str, int]) -> list[int]:
+    """The columns q1 ... q4 (or q0 ... q3) beside the motors' own whose squares sum to 1 in every row."""
+    numbered = {found[1]: column for name, column in free.items() if (found := NUMBERED_PART.fullmatch(name))}
+    for numbers in ("1234", "0123"):
+        if set(numbers) == set(numbered):
+            columns = [numbered[number] for number in numbers]
+            return columns if _of_unit_length(table, columns) else []
+    return []
+
+
+def _of_unit_length(table: ForeignTable, columns: list[int]) -> bool:
     lengths = np.linalg.norm(table.values[:, columns], axis=1)
     known = lengths[np.isfinite(lengths)]
-    return columns if len(known) and np.all(np.abs(known - 1) < DRAFT.unit_length) else []
+    return bool(len(known) and np.all(np.abs(known - 1) < DRAFT.unit_length))
 
 
 def _without_unit(name: str) -> str:

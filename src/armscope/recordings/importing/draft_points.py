@@ -7,8 +7,10 @@ from collections.abc import Sequence
 
 from armscope.recordings.importing.first_table import ForeignTable
 
-COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll")
-MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs")
+COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll", "指令", "理论")
+MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs", "测量", "实测")
+
+AXIS = re.compile(r"(?<![a-z])(?:pos|coord|p)?([xyz])(?![a-z])")
 
 
 def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
@@ -27,8 +29,9 @@ def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
     for column, name in enumerate(table.names):
         if column in taken:
             continue
-        for match in re.finditer(r"(?<![a-z])[p]?([xyz])(?![a-z])", name.lower().replace("_", " ")):
-            rest = (name[: match.start(1)] + "?" + name[match.end(1) :]).lower()
+        apart = re.sub(r"(?<=[a-z])(?=[XYZ](?![A-Za-z]))", " ", name)  # PosX
+        for match in AXIS.finditer(apart.lower().replace("_", " ")):
+            rest = (apart[: match.start(1)] + "?" + apart[match.end(1) :]).lower()
             found.setdefault(rest, {})[match[1]] = column
     whole = {rest: [axes[a] for a in "xyz"] for rest, axes in found.items() if set(axes) == set("xyz")}
     whole = {rest: columns for rest, columns in whole.items() if not _NO_POINT.search(rest)}

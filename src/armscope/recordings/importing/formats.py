@@ -23,31 +23,46 @@ def _column(value: object) -> object:
 Column = Annotated[int | str, pydantic.BeforeValidator(_column)]
 
 
-class TextFormat(Strict):
-    """Delimited text; ``decimal`` is the sign that every number uses, ``missing`` are words for no value.
+class CellsFormat(Strict):
+    """Cells in lines; ``decimal`` is the sign that every number uses, ``missing`` are words for no value.
 
     ``below_header`` lines below the names hold units, say, and are passed over; lines after ``last_line`` are not read.
+    ``thousands`` is the sign between groups of three digits; a blank stands for those that do not break a line, too.
+    """
+
+    decimal: Literal[".", ","] = "."
+    thousands: Literal[",", ".", " ", "'"] | None = None
+    header: bool = True
+    skip_lines: int = Field(default=0, ge=0)
+    below_header: int = Field(default=0, ge=0)
+    last_line: int | None = Field(default=None, ge=1)
+    comment: str | None = Field(default=None, min_length=1)
+    missing: tuple[str, ...] = ("", "NaN", "nan", "NA")
+
+    @pydantic.model_validator(mode="after")
+    def _of_one_meaning(self) -> Self:
+        if self.thousands == self.decimal:
+            raise ValueError("`thousands` and `decimal` can't be the same sign")
+        if self.below_header and not self.header:
+            raise ValueError("without a header there is nothing below it: say `skip_lines` in place of `below_header`")
+        return self
+
+
+class TextFormat(CellsFormat):
+    """Delimited text; quotation marks may stand around a cell that holds the delimiter.
+
     ``values_per_row`` cuts a flat list of values, one a line, into rows.
     """
 
     kind: Literal["text"] = "text"
     delimiter: Literal[",", ";", "tab", "|", "whitespace"] = ","
-    decimal: Literal[".", ","] = "."
-    header: bool = True
-    skip_lines: int = Field(default=0, ge=0)
-    below_header: int = Field(default=0, ge=0)
-    last_line: int | None = Field(default=None, ge=1)
     values_per_row: int | None = Field(default=None, ge=2)
-    comment: str | None = Field(default=None, min_length=1)
-    missing: tuple[str, ...] = ("", "NaN", "nan", "NA")
     encoding: str = "utf-8-sig"
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
-        if self.delimiter == self.decimal:
-            raise ValueError("`delimiter` and `decimal` can't both be a comma")
-        if self.below_header and not self.header:
-            raise ValueError("without a header there is nothing below it: say `skip_lines` in place of `below_header`")
+        if self.delimiter == "whitespace" and self.thousands == " ":
+            raise ValueError("blanks between thousands can't be told from those between columns")
         if self.values_per_row is not None and self.header:
             raise ValueError("a flat list (`values_per_row`) has no header: say `header: false`")
         return self
@@ -64,7 +79,16 @@ def _text_unless_said(value: object) -> object:
     return {"kind": "text", **value} if isinstance(value, dict) and "kind" not in value else value
 
 
-Format = Annotated[TextFormat | MatlabFormat, Field(discriminator="kind"), pydantic.BeforeValidator(_text_unless_said)]
+class WorkbookFormat(CellsFormat):
+    """A sheet of an Excel workbook (.xlsx, .xlsm); without ``sheet`` the first one. A formula counts as its value."""
+
+    kind: Literal["workbook"]
+    sheet: str | None = None
+
+
+Format = Annotated[
+    TextFormat | WorkbookFormat | MatlabFormat, Field(discriminator="kind"), pydantic.BeforeValidator(_text_unless_said)
+]
 
 
 class Range(Strict):

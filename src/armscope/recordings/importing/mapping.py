@@ -17,8 +17,8 @@ from pydantic import Field
 from armscope.core.inputs import Strict, nearest
 from armscope.recordings.importing.formats import Column, Format, RowFilter, TextFormat, Time
 
-AngleUnit = Literal["rad", "deg"]
-LengthUnit = Literal["mm", "m", "cm", "in"]
+AngleUnit = Literal["rad", "deg", "gon", "mrad"]
+LengthUnit = Literal["mm", "m", "cm", "um", "in", "ft"]
 
 
 class Angles(Strict):

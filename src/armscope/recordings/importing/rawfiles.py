@@ -15,8 +15,9 @@ from scipy.io.matlab import MatReadError
 
 from armscope.core.inputs import InputError, nearest, why_unreadable
 from armscope.recordings.importing.constants import LIMITS
-from armscope.recordings.importing.formats import Format, MatlabFormat, TextFormat
+from armscope.recordings.importing.formats import CellsFormat, Format, MatlabFormat, TextFormat, WorkbookFormat
 from armscope.recordings.importing.rawrows import MatrixRows, RawRows, TextRows
+from armscope.recordings.importing.workbooks import is_workbook, sheet_rows
 from armscope.recordings.opening import open_text, refuse_other_than_text, refuse_pickles, start_of, undecodable
 
 REMARKS = "#%!/"
@@ -41,6 +42,14 @@ def read_pieces(path: Path, style: Format, notes: Counter[str]) -> Iterator[RawR
     refuse_pickles(path, start)
     if isinstance(style, MatlabFormat):
         yield read_matrix(path, style)
+        return
+    if isinstance(style, WorkbookFormat):
+        if not is_workbook(start):
+            refuse_other_than_text(path, start, "utf-8", "Declare `encoding: utf-16` in the mapping's format.")
+            cure = "If it is text, leave `kind: workbook` out of the format."
+            raise InputError(path, "", "no Excel workbook", "a sheet of one is needed here", cure)
+        rows = (row for row in sheet_rows(path, style.sheet, style.decimal) if row[0] > style.skip_lines)
+        yield from _gather(path, style, _kept(rows, style), notes)
         return
     refuse_other_than_text(path, start, style.encoding, "Declare `encoding: utf-16` in the mapping's format.")
     yield from _read_text(path, style, notes)
@@ -71,11 +80,7 @@ def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int
     else:
         numbered = _separated(path, stream, style)
     held: list[str] = []
-    for number, row in numbered:
-        if style.last_line is not None and number > style.last_line:
-            break
-        if style.comment is not None and row and row[0].startswith(style.comment):
-            continue
+    for number, row in _kept(numbered, style):
         if style.values_per_row is None:
             yield number, row
             continue
@@ -85,6 +90,15 @@ def _split(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int
             held = []
     if held:
         yield number, held
+
+
+def _kept(rows: Iterator[tuple[int, list[str]]], style: CellsFormat) -> Iterator[tuple[int, list[str]]]:
+    """Rows up to the last line, without comments."""
+    for number, row in rows:
+        if style.last_line is not None and number > style.last_line:
+            return
+        if style.comment is None or not row or not row[0].startswith(style.comment):
+            yield number, row
 
 
 def _separated(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple[int, list[str]]]:
@@ -101,7 +115,7 @@ def _separated(path: Path, stream: IO[str], style: TextFormat) -> Iterator[tuple
 
 
 def _gather(
-    path: Path, style: TextFormat, rows: Iterator[tuple[int, list[str]]], notes: Counter[str]
+    path: Path, style: CellsFormat, rows: Iterator[tuple[int, list[str]]], notes: Counter[str]
 ) -> Iterator[TextRows]:
     names: tuple[str, ...] = ()
     width = None
@@ -122,7 +136,7 @@ def _gather(
             continue
         width = width or len(row)
         if len(row) != width:
-            cure = _why_ragged(style, row, width)
+            cure = _why_ragged(style, row, width) if isinstance(style, TextFormat) else ""
             raise InputError(path, f"line {line}", f"{len(row)} values", f"every row has {width} values", cure)
         cells.append(row)
         lines.append(line)

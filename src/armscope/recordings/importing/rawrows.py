@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -10,7 +12,7 @@ import numpy as np
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
 from armscope.recordings.constants import POSSIBLE
-from armscope.recordings.importing.formats import Column, TextFormat
+from armscope.recordings.importing.formats import CellsFormat, Column, TextFormat
 
 TOO_LARGE = f"no recorded value reaches {POSSIBLE.number:.0e}"
 
@@ -35,7 +37,7 @@ class TextRows:
     numbers_of_rows: Indices
     lines: Indices
     cells: list[list[str]]
-    format: TextFormat
+    format: CellsFormat
 
     def __len__(self) -> int:
         return len(self.cells)
@@ -48,6 +50,8 @@ class TextRows:
     def numbers(self, column: Column) -> Array:
         """The numbers of a column, NaN where it says that there is none."""
         words = self.words(column)
+        if (thousands := self.format.thousands) is not None:
+            words = [without_thousands(word, thousands) for word in words]
         as_float = _to_floats(words, self.format)
         if as_float is not None:
             return as_float
@@ -58,12 +62,14 @@ class TextRows:
             return np.nan
         rule, wrong_sign = "this must be a finite number", "," if self.format.decimal == "." else "."
         cure = "The header stands here a second time: remove this line." if word == str(column) else ""
-        if not cure and self.numbers_of_rows[row] == 1:
+        if not cure and self.numbers_of_rows[row] == 1 and not any(map(str.isdigit, word)):
             cure = "If this line names the columns, leave out `header: false`."
             if self.names:
                 cure = f"If this line holds units, declare `below_header: {self.format.below_header + 1}`."
-        if {".", ","} <= set(word):
-            cure = "Signs between thousands are not read: write the numbers without them."
+        if sign := sign_of_thousands([word]):
+            cure = f"Is {sign!r} the sign between its thousands? Then declare `thousands: {sign!r}`."
+        elif {".", ","} <= set(word):
+            cure = "Write it without signs between thousands."
         elif wrong_sign in word:
             cure = (
                 f"The mapping declares decimal: {self.format.decimal!r} for the whole file, this number uses another."
@@ -89,7 +95,35 @@ class TextRows:
         return replace(self, cells=cells, lines=self.lines[which], numbers_of_rows=self.numbers_of_rows[which])
 
 
-def _to_floats(words: list[str], style: TextFormat) -> Array | None:
+GROUPED = re.compile(r"[+-]?\d{1,3}(?P<sign>[,.' ])\d{3}((?P=sign)\d{3})*(?P<rest>[.,]\d+)?")
+_ANY_BLANK = re.compile("[\u00a0\u2007\u2009\u202f]")
+_ANY_APOSTROPHE = re.compile("[\u2019\u02bc]")
+
+
+def _grouped(word: str) -> re.Match[str] | None:
+    return GROUPED.fullmatch(_ANY_APOSTROPHE.sub("'", _ANY_BLANK.sub(" ", word)))
+
+
+def sign_of_thousands(words: Iterable[str]) -> str:
+    """The sign between thousands that some numbers can only have; "" where none has one.
+
+    "1,234" may be a number with three decimals: a comma or a point counts where a decimal sign follows, or it returns.
+    """
+    for word in words:
+        if found := _grouped(word):
+            sign, rest = found["sign"], found["rest"]
+            if sign in " '" or word.count(sign) > 1 or (rest and rest[0] != sign):
+                return sign
+    return ""
+
+
+def without_thousands(word: str, sign: str) -> str:
+    """A number without the signs between its thousands; any other word as it is."""
+    found = _grouped(word)
+    return found.group().replace(sign, "") if found and found["sign"] == sign else word
+
+
+def _to_floats(words: list[str], style: CellsFormat) -> Array | None:
     """All words as finite numbers, or None where one of them is not a plain number (the slow way then says which)."""
     joined = "\n".join(words)
     if "_" in joined or (style.decimal == "," and "." in joined):
@@ -142,7 +176,7 @@ RawRows = TextRows | MatrixRows
 
 
 def _index(
-    source: Path, names: tuple[str, ...], n_columns: int, column: Column, style: TextFormat | None = None
+    source: Path, names: tuple[str, ...], n_columns: int, column: Column, style: CellsFormat | None = None
 ) -> int:
     if isinstance(column, int):
         if column > n_columns:
@@ -156,7 +190,7 @@ def _index(
     count = names.count(column)
     if count == 0:
         cure = nearest(column, names)
-        if style is not None and len(names) == 1 and any(sign in names[0] for sign in ",;\t| "):
+        if isinstance(style, TextFormat) and len(names) == 1 and any(sign in names[0] for sign in ",;\t| "):
             cure = f"The header is {names[0][:40]!r}: is its delimiter really {style.delimiter!r}?"
         raise InputError(source, "header", f"no column {column}", "the mapping names this column", cure)
     if count > 1:

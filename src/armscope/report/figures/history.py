@@ -16,8 +16,8 @@ from armscope.core.numerals import shown_unit
 from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8
-ACROSS, LONGEST, LETTERS = 60, 28, 60
-"""Letters that stand beside each other under the panels, of one name, and in a line of a title."""
+ACROSS, LONGEST, LETTERS, OF_A_NUMBER = 60, 28, 60, 18
+"""Letters that stand beside each other under the panels, of one name, in a line of a title and of a number's name."""
 COLUMNS = [
     "recording", "effect", "location", "parameter", "unit", "value", "stderr", "since_first", "since_first_stderr",
 ]  # fmt: skip
@@ -40,7 +40,7 @@ def history_figure(found: Comparison) -> Figure:
     """A panel per number: how far it is from the first recording, with a 95 % interval; those that differ filled."""
     numbers = [(each, number) for each in found.changes for number in each.parameters][:MOST_PANELS]
     figure, panels = plt.subplots(
-        len(numbers), 1, figsize=(6.4, 1.6 + 1.4 * len(numbers)), sharex=True, squeeze=False, layout="constrained"
+        len(numbers), 1, figsize=(7.0, 1.6 + 1.4 * len(numbers)), sharex=True, squeeze=False, layout="constrained"
     )
     at, first = np.arange(len(found.names)), _shortened(found.names[0])
     what = "difference" if found.of_arms else "change"
@@ -53,7 +53,9 @@ def history_figure(found: Comparison) -> Figure:
             axes.plot(at, values, color="0.8", zorder=0)
         axes.plot(at[~differs], values[~differs], "o", markerfacecolor="white", color="#0072B2")
         axes.plot(at[differs], values[differs], "o", color="#D55E00")
-        axes.set_ylabel(f"{what} of\n{number.name.replace('_', ' ')}\n({unit})")
+        name = textwrap.fill(number.name.replace("_", " "), OF_A_NUMBER)
+        upright: dict[str, Any] = {"rotation": 0, "ha": "right", "va": "center"}  # on its side, it reaches the next one
+        axes.set_ylabel(f"{what} of\n{name}\n({unit})", fontsize="small", **upright)
         if number is each.parameters[0]:
             title = textwrap.fill(spelt_out(f"{each.title}: {found.became(each)}"), LETTERS)
             axes.set_title(title, loc="left", fontsize="medium")
