@@ -242,6 +242,7 @@ def test_where_nothing_is_named_no_tile_counts_to_zero(tmp_path):
 
 def test_what_was_repaired_has_no_cure_on_the_page(tmp_path):
     less = replace(CHANGE, kind="went", alternatives=("link geometry at link 3",), left_mm=0.8, taken_back_mm=0.97)
+    less = replace(less, worse_sigmas=9.0)
     said = words_of(replace(FOUND, changes=(less,)), tmp_path)
     assert "To do: Nothing is to be corrected: there is less of it in after than in before" in said
     assert "Cure" not in said

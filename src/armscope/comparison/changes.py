@@ -17,13 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
-from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
+from armscope.comparison.at_the_tool import moved_mm, taken_back_mm, worse_sigmas
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
+from armscope.comparison.gained import more_or_less, more_sigmas
+from armscope.comparison.levels import own_values
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
-from armscope.comparison.result import Change, Comparison, Kind, Left
+from armscope.comparison.result import SENSE, Change, Comparison, Kind, Left, Sense
 from armscope.comparison.search import likeliest_changes
 from armscope.comparison.seen import seen
 from armscope.comparison.sets import of_same_poses, stacked
@@ -191,7 +193,7 @@ def _change(
     alike = [other for other in taken if other.placed is found.placed and other is not found]
     # values of its own in every recording hold all changes of the effect: those beside them would be the same columns
     beside = [other for other in taken if other.placed is not found.placed]
-    values, covariance, free = model.own_values(found.number, beside, len(names))
+    values, covariance, free = own_values(model, found.number, beside, len(names))
     q = len(found.placed.terms)
     there, against = _but_for_it_alike(found, alike)
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))
@@ -206,13 +208,17 @@ def _change(
     change = contrast @ values.reshape(len(names), q)
     rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
-    kind = _kind(parameters, inside, outside)
+    shares = inside / inside.sum(), outside / outside.sum()
+    sense = more_or_less(found.placed, parameters, more_sigmas(model, found, beside, *shares))
+    kind = _kind(parameters, inside, outside, sense)
     if kind in ("went", "shrank") and back < left:
         kind = "changed"  # it cannot be less where taking it back leaves less: how large it is, is told too surely
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
     place = found.placed.name, found.placed.location, title
-    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back, found.placed.variant)
+    beyond = worse_sigmas(model, found, change)
+    variant = found.placed.variant
+    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back, variant, sense, beyond)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -249,8 +255,15 @@ def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> b
     return bool(np.sum((means / np.maximum(spread, 1e-300)) ** 2) > chdtri(len(parameters), 0.05))
 
 
-def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
-    """What became of the parameter that changed most surely."""
+def _kind(
+    parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_], sense: Sense | None = None
+) -> Kind:
+    """What became of the parameter that changed most surely; only that it changed where its sense is not that."""
+    became = _became(parameters, inside, outside)
+    return became if sense in (None, SENSE.get(became)) else "changed"
+
+
+def _became(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
     surest = max(parameters, key=lambda each: abs(each.difference) / (each.interval_95[1] - each.interval_95[0]))
     values, errors = np.array(surest.values), np.array(surest.stderrs)
     before, after = np.mean(values[outside]), np.mean(values[inside])

@@ -26,6 +26,12 @@ class ComparingRules(Constants):
         "convention: three; less is nothing and noise",
         unit="standard errors",
     )
+    clearly_worse: float = constant(
+        3.0,
+        "by which rows leave more once a change is taken back, or less, from which that is said",
+        "convention: three",
+        unit="standard errors",
+    )
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
     many_alike: int = constant(
         8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"
