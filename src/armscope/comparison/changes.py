@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
 from armscope.comparison.at_the_tool import moved_mm, taken_back_mm, worse_sigmas
+from armscope.comparison.bad_shots import bad_shots
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
@@ -82,6 +83,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
         noisier=noisy,
+        bad_shots=bad_shots(model, table, names),
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
 

@@ -99,6 +99,16 @@ class SharedModelRules(Constants):
         "numbers that are free when a recording is fitted alone, from which its noise is known by that",
         "derived: to 1 / sqrt(2 x 20) = 16 %; with one free, eight pairs of 20 seemed to have changed",
     )
+    row_weighings: int = constant(
+        6, "of rows by how far off they lie, at most", "judgement: bad rows then count for nothing", unit="rounds"
+    )
+    most_bad: float = constant(
+        0.05, "share of a recording's rows that may hide each other", "judgement: one in twenty; more are no bad shots"
+    )
+    left_out: float = constant(1e-6, "weight of a row that is left out", "judgement: a thousandth of its size")
+    same_weight: float = constant(
+        0.01, "change of a row's weight below which they are settled", "judgement: a hundredth of a row"
+    )
     widened: float = constant(
         10.0,
         "times the size of a shared effect, as the prior of a change that is told",

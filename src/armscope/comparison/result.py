@@ -6,6 +6,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from armscope.comparison.bad_shots import BadShot, told_of_shots
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
@@ -145,6 +146,7 @@ class Comparison(InWords):
         noisier: recordings of which more is left than of others, whatever is fitted.
         other_load: that another load at the flange would look like the changes; "" where it would not.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
+        bad_shots: rows that lie far off whatever is fitted, and count for little.
     """
 
     arm: str
@@ -161,6 +163,7 @@ class Comparison(InWords):
     of_arms: bool = False
     other_load: str = ""
     noisier: tuple[Noisier, ...] = ()
+    bad_shots: tuple[BadShot, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, null for what is no number."""
@@ -241,6 +244,7 @@ class Comparison(InWords):
         """In words, a line per cause and number."""
         lines = [self.headline, *([] if self.changes else [self.would_be_seen] * bool(self.would_be_seen))]
         lines.append(f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried")
+        lines += filter(None, [told_of_shots(self.bad_shots)])
         for each in self.changes:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.comparison.bad_shots import weigh_rows
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
@@ -49,9 +50,10 @@ class SharedModel:
         self.plausible = np.array([term.plausible for each in self.placed for term in each.terms])
         self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
         self.dispersion = 1.0
-        self._robust = self.weight = weight
+        self.robust = self.weight = weight
         self.own = own_errors(model, table, group).weighed(weight) if of_arms else no_own_errors(len(weight))
         self.noise = self._settled_noise()
+        weigh_rows(self)
         self.settle(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
         if (load := load_at_the_flange(arm, table)) is not None:
@@ -94,12 +96,12 @@ class SharedModel:
         as a noisy one, whose rows then show no change. Where a recording is too short to be fitted alone, by what is
         left beside what all share.
         """
-        alone = [each.left(each.base(())) for each in map(self._alone, range(self.group[-1] + 1))]
+        alone = [each.left(each.base(())) for each in map(self.alone, range(self.group[-1] + 1))]
         self.weighed_alone = min(free for _, free in alone) >= SHARED.free_alone
         if self.weighed_alone:
             self._weigh(np.sqrt([variance for variance, _ in alone]))
             return
-        self._reweigh(self._robust / self.weight)
+        self._reweigh(self.robust / self.weight)
         for _ in range(SHARED.weighings):
             left, free = self._left_of_each(taken)
             self._weigh(np.sqrt(np.bincount(self.group, left**2) / free + SHARED.least_square))
@@ -115,6 +117,18 @@ class SharedModel:
         self._reweigh((np.sqrt(variance) / noise)[self.group])
         self.noise = float(variance)
 
+    def trust(self, weights: Array) -> None:
+        """Rows count by ``weights`` (3N,), whatever they counted before."""
+        self._reweigh(weights / self.weight)
+        self.robust = weights
+
+    def weighed_anew(self, weights: Array) -> SharedModel:
+        """The same rows with other weights (3N,)."""
+        other = copy.copy(self)
+        other.trust(weights)
+        other.noise = other._settled_noise()
+        return other
+
     def _reweigh(self, relative: Array) -> None:
         self.weight, self.residual = self.weight * relative, self.residual * relative
         self.frames, self.effects = self.frames * relative[:, None], self.effects * relative[:, None]
@@ -128,13 +142,13 @@ class SharedModel:
             rows = self.group == number
             together = own = (weighed[rows] / self.weight[rows]).reshape(-1, 3)
             if self.weighed_alone:
-                alone = self._alone(number)
+                alone = self.alone(number)
                 base = alone.base(())
-                own, fewer = alone._left_over(base).reshape(-1, 3), alone.left(base)[1]
+                own, fewer = alone.left_by(base).reshape(-1, 3), alone.left(base)[1]
             left.append(LeftOver(own, float(fewer), together, self._moved[:, rows[::3]]))
         return left
 
-    def _alone(self, number: int) -> SharedModel:
+    def alone(self, number: int) -> SharedModel:
         """One recording, with effects of its own."""
         rows = self.group == number
         alone = copy.copy(self)
@@ -148,7 +162,7 @@ class SharedModel:
     def _between_halves(self, angles: Array) -> Iterator[Statistic]:
         """What differs between halves of each recording, for every effect, with frames and effects of its own."""
         for number in range(self.group[-1] + 1):
-            alone = self._alone(number)
+            alone = self.alone(number)
             parts = [np.repeat(half, 3) for half in halves(angles[self.group[::3] == number])]
             changes = [
                 Possible(each, at, self._of(self.plausible, at), part, (), ())
@@ -210,11 +224,11 @@ class SharedModel:
         """What frames leave, what is shared beside them, and changes, too: three of (sets,) RMS per axis, mm."""
         frames = HeldColumns(self.frames, np.zeros(self.frames.shape[1]))
         return [
-            np.sqrt(np.bincount(self.group, self._left_over(base) ** 2) / np.bincount(self.group))
+            np.sqrt(np.bincount(self.group, self.left_by(base) ** 2) / np.bincount(self.group))
             for base in (frames, self.base(()), self.base(taken))
         ]
 
-    def _left_over(self, base: HeldColumns) -> Array:
+    def left_by(self, base: HeldColumns) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
         return np.asarray((self.residual - base.columns @ held_values(self.residual, base)) / self.weight)
 

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
+from armscope.comparison.bad_shots import told_of_shots
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
@@ -33,6 +34,8 @@ SMALLEST = 1e-6
 """Smaller probabilities are not told apart: no test's assumptions hold so far out."""
 MOST_LISTED = 4
 """Of more recordings the first and the last are named."""
+MOST_SHOTS = 20
+"""Bad shots that the page names."""
 RARE = 0.01
 """Below it a probability is told as one in so many."""
 
@@ -101,6 +104,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         left_out=max(0, numbers - MOST_PANELS),
         history=history,
         recordings=recordings_table(found),
+        shots=capitalised(f"{shots}.") if (shots := told_of_shots(found.bad_shots, MOST_SHOTS)) else "",
         seen=seen_table(found),
         power=COMPARING.power,
         prior_mm=SHARED.prior_mm,
