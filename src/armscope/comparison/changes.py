@@ -246,7 +246,8 @@ def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, f
     )
     difference, half = change[0] / term.si, change[1] / term.si
     interval = (difference - half, difference + half)
-    return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval)
+    plausible = float(term.plausible / term.si)
+    return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval, plausible)
 
 
 def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> bool:

@@ -26,6 +26,11 @@ class ComparingRules(Constants):
         "convention: three; less is nothing and noise",
         unit="standard errors",
     )
+    beyond_all: float = constant(
+        10.0,
+        "times what arms show, from which half an interval about nothing says that the rows leave a change open",
+        "judgement: ten times as much is on no arm",
+    )
     clearly_worse: float = constant(
         3.0,
         "by which rows leave more once a change is taken back, or less, from which that is said",
@@ -132,6 +137,14 @@ class SharedModelRules(Constants):
         0.1,
         "by which errors of each arm's own become smaller in a round, at most",
         "judgement: none goes at once",
+    )
+    least_told: float = constant(
+        1.0, "numbers from which a place says how large an error of each arm's own is", "derived: fewer are none"
+    )
+    least_worth: float = constant(
+        2.0,
+        "numbers that all places of a kind are worth for one, at least",
+        "judgement: two; else a place of which the rows tell little has any size",
     )
     least_variance: float = constant(
         1e-12, "of the noise", "derived: far below any instrument's; exact rows would have none", unit="mm2"
