@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from armscope.comparison.constants import SHARED
+from armscope.comparison.constants import COMPARING, SHARED
 from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.measurement import robust
@@ -20,8 +20,6 @@ from armscope.recordings import Recordings
 
 if TYPE_CHECKING:
     from armscope.comparison.shared_model import SharedModel
-
-MOST_NAMED = 5
 
 
 @dataclass(frozen=True)
@@ -136,7 +134,7 @@ def bad_shots(model: SharedModel, table: Recordings, names: Sequence[str]) -> tu
     return tuple(sorted(found, key=lambda each: -each.residual_mm))
 
 
-def told_of_shots(found: Sequence[BadShot], most: int = MOST_NAMED) -> str:
+def told_of_shots(found: Sequence[BadShot], most: int = COMPARING.named_shots) -> str:
     """In words; "" where there is none."""
     if not found:
         return ""

@@ -119,8 +119,7 @@ def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: in
     """The likeliest changes beside noise, and errors of each arm's own, that are as large as without these changes."""
     taken = likeliest_changes(model, possible, tried)
     if model.of_arms and not taken:
-        model.settle(_hidden(model, possible))
-        taken = likeliest_changes(model, possible, tried)
+        taken = _one_that_hid(model, possible, tried)
     for _ in range(SHARED.weighings):
         if not taken or model.settled:
             break
@@ -133,14 +132,21 @@ def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: in
     return taken
 
 
-def _hidden(model: SharedModel, possible: Sequence[Possible]) -> list[Possible]:
-    """The likeliest of errors beside those that most arms have: it makes such errors seem usual, and would hide itself.
+def _one_that_hid(model: SharedModel, possible: Sequence[Possible], tried: int) -> list[Possible]:
+    """What is sure once an error does not count for what is usual of arms: it would make itself usual, and hide.
 
-    What is sure without it in what is usual, is looked for then.
+    First the likeliest beside what most arms have, then what is likeliest beside that.
     """
     model.settle((), of_most=True)
-    scores = model.scores(possible, ())
-    return [possible[int(np.argmax([score.nats for score in scores]))]]
+    seen: list[Possible] = []
+    for _ in range(SHARED.hidden):
+        rest = [each for each in possible if each not in seen]
+        scores = model.scores(rest, ())
+        seen.append(rest[int(np.argmax([score.nats for score in scores]))])
+        model.settle(seen[-1:])
+        if taken := likeliest_changes(model, possible, tried):
+            return taken
+    return []
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:

@@ -38,6 +38,7 @@ class ComparingRules(Constants):
         unit="standard errors",
     )
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
+    named_shots: int = constant(5, "bad shots that are told by name", "judgement: as many are looked at", unit="rows")
     many_alike: int = constant(
         8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"
     )
@@ -137,6 +138,11 @@ class SharedModelRules(Constants):
         0.1,
         "by which errors of each arm's own become smaller in a round, at most",
         "judgement: none goes at once",
+    )
+    hidden: int = constant(
+        3,
+        "differences, each of which is tried as no part of what is usual of arms",
+        "judgement: of five planted zeros the first one missed one, the second none",
     )
     least_told: float = constant(
         1.0, "numbers from which a place says how large an error of each arm's own is", "derived: fewer are none"
