@@ -7,19 +7,48 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol, Self
 
 import numpy as np
 
 from armscope.comparison.constants import COMPARING, SHARED
+from armscope.comparison.penalised import HeldColumns
 from armscope.core.numerals import rounded
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.measurement import robust
 from armscope.measurement.constants import WEIGHTS
 from armscope.recordings import Recordings
 
-if TYPE_CHECKING:
-    from armscope.comparison.shared_model import SharedModel
+
+class Weighed(Protocol):
+    """Recordings whose rows count by weights: `armscope.comparison.shared_model`.
+
+    Attributes:
+        group: (3N,) number of the recording that each is of.
+        weight: (3N,) by which each counts; ``robust``: without what whole recordings count by.
+    """
+
+    group: Indices
+    weight: Array
+    robust: Array
+
+    def alone(self, number: int) -> Self:
+        """One recording."""
+
+    def trust(self, weights: Array) -> None:
+        """Rows count by (3N,)."""
+
+    def weighed_anew(self, weights: Array) -> Self:
+        """The same by (3N,)."""
+
+    def base(self, taken: tuple[()]) -> HeldColumns:
+        """By what it is fitted."""
+
+    def left(self, base: HeldColumns) -> tuple[float, float]:
+        """Variance, and how many numbers are free."""
+
+    def left_by(self, base: HeldColumns) -> Array:
+        """(3N,) mm."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +70,7 @@ class BadShot:
         return f'{self.id} of "{self.recording}"{run} ({rounded(self.residual_mm)} mm off)'
 
 
-def weigh_rows(model: SharedModel) -> None:
+def weigh_rows(model: Weighed) -> None:
     """Rows count by how far each lies from what the others of its recording say, so that no change counts.
 
     Args:
@@ -62,7 +91,7 @@ def weigh_rows(model: SharedModel) -> None:
             break
 
 
-def _without_the_farthest(alone: SharedModel) -> Array:
+def _without_the_farthest(alone: Weighed) -> Array:
     """(3N,) weights to start from: the farthest rows are left out one by one, as two that bend the fit hide each other.
 
     As many as leave the last of them far beyond the noise of the rest (Rosner 1983).
@@ -85,7 +114,7 @@ def _without_the_farthest(alone: SharedModel) -> Array:
     return np.repeat(np.sqrt(start), 3)
 
 
-def from_the_others(alone: SharedModel) -> tuple[Array, Array]:
+def from_the_others(alone: Weighed) -> tuple[Array, Array]:
     """How far each row lies from what all others say of it: in a fit that it takes part in, it draws that to itself.
 
     Of n rows fitted beside their penalties, without row i, e / (1 - h) is left of it, of variance 1 + (h / w) / (1 - h)
@@ -108,7 +137,7 @@ def from_the_others(alone: SharedModel) -> tuple[Array, Array]:
     return np.asarray(off[:, :, 0]), np.asarray(np.linalg.solve(half, off)[:, :, 0])
 
 
-def bad_shots(model: SharedModel, table: Recordings, names: Sequence[str]) -> tuple[BadShot, ...]:
+def bad_shots(model: Weighed, table: Recordings, names: Sequence[str]) -> tuple[BadShot, ...]:
     """The rows that count for little, the farthest first.
 
     Args:
