@@ -142,7 +142,7 @@ class SharedModelRules(Constants):
     hidden: int = constant(
         3,
         "differences, each of which is tried as no part of what is usual of arms",
-        "judgement: of five planted zeros the first one missed one, the second none",
+        "judgement: of five planted zeros the first alone missed two, three miss one",
     )
     least_told: float = constant(
         1.0, "numbers from which a place says how large an error of each arm's own is", "derived: fewer are none"
