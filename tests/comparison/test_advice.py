@@ -60,23 +60,24 @@ def test_no_advice_makes_the_arm_worse(kind, sign, seed):
 
 
 def test_what_is_less_is_not_mended_though_the_poses_leave_open_how_large_it_is():
-    """Then only what taking it back would do says that it was repaired."""
+    """Then it must be known otherwise that there is less of it; what taking it back does is said beside."""
     open_yet = replace(CHANGE.parameters[0], values=(9e-4, 9e-4, 1.77e-3), stderrs=(1e-2,) * 3)
     repaired = replace(CHANGE, kind="changed", parameters=(open_yet,), left_mm=0.818, taken_back_mm=0.973)
+    repaired = replace(repaired, sense="less", worse_sigmas=9.0)
     told = remedy_of(FOUND, repaired)
     assert told.instruction == (
         "Nothing is to be corrected: there is less of it in c than in a and b, and to take the change back would bring "
         "it again. Taken back, 0.973 mm in place of 0.818 mm per axis would be left in c."
     )
     assert "the repair worked" in told.why
-    crashed = remedy_of(FOUND, replace(repaired, left_mm=0.973, taken_back_mm=0.818))
+    crashed = remedy_of(FOUND, replace(repaired, left_mm=0.973, taken_back_mm=0.818, sense="", worse_sigmas=-9.0))
     assert crashed.instruction.startswith("Reset the zero of joint 3: it moved by +0.0498°")
     assert crashed.instruction.endswith("Taken back, 0.818 mm in place of 0.973 mm per axis would be left in c.")
     assert "a crash" in crashed.why
 
 
 def test_what_others_make_up_for_is_not_mended_alone():
-    told = remedy_of(FOUND, replace(CHANGE, left_mm=0.818, taken_back_mm=0.973))
+    told = remedy_of(FOUND, replace(CHANGE, left_mm=0.818, taken_back_mm=0.973, worse_sigmas=9.0))
     assert told.instruction.startswith("Nothing is to be corrected by this alone. Taken back, 0.973 mm")
     assert told.instruction.endswith("diagnose c and mend all of it.")
     assert "a crash" in told.why

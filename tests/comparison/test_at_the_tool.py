@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
+from armscope.comparison.at_the_tool import moved_mm, taken_back_mm, worse_sigmas
 from armscope.comparison.sets import stacked
 from armscope.comparison.shared_model import SharedModel
 from tests.comparison.test_changes import ARM, session
@@ -31,3 +31,12 @@ def test_a_change_moves_the_tool_by_as_much_as_it_is_large():
     assert moved_mm(model, zero, np.array([2e-3])) == pytest.approx(2 * moved_mm(model, zero, np.array([1e-3])))
     none = {"a": session(1), "b": session(2)}
     assert moved_mm(*of_zero(none, 1), np.array([1e-3])) < 1e-6, "the base turns as the first joint does"
+
+
+def test_what_is_left_when_it_is_taken_back_is_weighed_by_its_rows():
+    """1 mrad in an arm that has nothing else is surely better back; a thousandth of it nobody can tell."""
+    tables = {"a": session(1), "b": session(2, offsets={3: 1e-3})}
+    surely, hardly = (worse_sigmas(*of_zero(tables, 3), np.array([size])) for size in (1e-3, 1e-6))
+    assert surely < -3
+    assert worse_sigmas(*of_zero(tables, 3), np.array([-1e-3])) > 3
+    assert np.sign(surely) == np.sign(hardly), "of next to nothing the rows all say the same, and it is worth nothing"

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from armscope.comparison import Change, Comparison, Valued
-from armscope.comparison.remedies import difference_of, remedy_of
+from armscope.comparison.remedies import difference_of, is_open, remedy_of
 from armscope.physics.registry import effects
 
 NUMBER = Valued("offset", "rad", (9e-4, 1.77e-3), (1e-4,) * 2, (0.0, 8.7e-4), (0.0, 1e-5), 8.7e-4, (8.5e-4, 8.9e-4))
@@ -64,3 +64,39 @@ def test_an_effect_that_is_not_installed_any_more_has_no_cure():
     told = remedy_of(FOUND, replace(CHANGE, effect="of_a_package_that_went"))
     assert told.instruction == told.rule == ""
     assert told.why
+
+
+def test_whether_to_take_back_what_may_be_a_repair_is_left_to_the_log():
+    number = replace(NUMBER, values=(9e-4, 9e-4, 1.77e-3), stderrs=(1e-2,) * 3)
+    open_yet = replace(CHANGE, kind="changed", parameters=(number,), left_mm=1.14, taken_back_mm=1.14, worse_sigmas=0.4)
+    told = remedy_of(FOUND, open_yet)
+    assert is_open(open_yet)
+    assert told.instruction == (
+        "Whether there is more of it in c than in a and b or less is not known: it stays if it was repaired, and is "
+        "taken back if it came with a crash. The log says which, or its mastering mark, or a diagnosis of each. After "
+        "a crash: Reset the zero of joint 3: it moved by +0.0498° (+0.870 mrad ± 0.020)."
+    )
+    arms = replace(FOUND, of_arms=True)
+    assert "diagnose each, and mend c only if it is the one with more" in remedy_of(arms, open_yet).instruction
+    assert not is_open(replace(open_yet, sense="more"))
+    assert not is_open(replace(open_yet, worse_sigmas=-9.0)), "the tool comes nearer, whichever it is"
+
+
+def test_less_of_a_cause_is_no_cure_though_other_errors_come_out_by_it():
+    stiffer = replace(CHANGE, kind="shrank", sense="less", left_mm=1.2, taken_back_mm=1.0, worse_sigmas=-9.0)
+    told = remedy_of(FOUND, stiffer).instruction
+    assert told.startswith("Nothing is to be corrected: there is less of it in c")
+    assert told.endswith("Other errors of the arm come out by it: diagnose c.")
+
+
+def test_a_zero_that_went_through_to_the_other_side_is_told_as_all_of_it_and_as_no_repair():
+    """Seen: +0.25 mrad before and −0.75 now was a repair that worked, and its number stood under those of changes."""
+    number = replace(NUMBER, values=(2.5e-4, 2.5e-4, -7.5e-4), stderrs=(1e-5,) * 3, difference=-1e-3)
+    through = replace(CHANGE, kind="changed", parameters=(number,), sense="more")
+    told = remedy_of(FOUND, through)
+    assert told.instruction.startswith("Reset the zero of joint 3: it is off by −0.0430°")
+    assert told.instruction.endswith(
+        " That is all of it as it is now: it went through to the other side, by −1.0 mrad."
+    )
+    assert "repair worked" not in told.why
+    assert "repair worked" not in remedy_of(FOUND, replace(through, sense="less")).why

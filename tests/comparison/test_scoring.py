@@ -45,7 +45,7 @@ def test_what_stands_in_the_base_is_not_seen() -> None:
 def test_what_arms_have_a_little_of_is_seen_and_less_sure() -> None:
     """The same column drawn with a standard deviation of 0.1: then 0.4 is four of these, and not some three of 0.13."""
     usual = HeldColumns(np.hstack([CHANGE[:, :1], COLUMNS]), np.array([1 / 0.1**2, *np.full(4, 1e-12)]), drawn=1)
-    own = OwnErrors(CHANGE[:, :1], np.zeros(1, int), np.zeros(1, int), np.ones(1), np.full(1, 8.0))
+    own = OwnErrors(CHANGE[:, :1], *[np.zeros(1, int)] * 3, np.ones(1), np.full(1, 8.0))
     (found,) = scored([CHANGE[:, :1]], ROWS, usual, 1.0, own)
     (sure,) = scored([CHANGE[:, :1]], ROWS, usual.fixed, 1.0, NONE)
     assert found.statistic.q == sure.statistic.q == 1
@@ -64,6 +64,6 @@ def test_what_is_known_from_few_numbers_makes_a_change_less_sure() -> None:
     """Of a variance of which half is known from 4 numbers, and half from 56: 1 / (0.5^2 / 4 + 0.5^2 / 56) = 14.9."""
     column = CHANGE[:, :1] / np.linalg.norm(CHANGE[:, 0])
     base = HeldColumns(column, np.ones(1), drawn=1)
-    own = OwnErrors(column, np.zeros(1, int), np.zeros(1, int), np.ones(1), np.full(1, 4.0))
+    own = OwnErrors(column, *[np.zeros(1, int)] * 3, np.ones(1), np.full(1, 4.0))
     assert numbers_behind(base, base.beyond(column), 56, own) == pytest.approx(14.93, abs=0.01)
     assert numbers_behind(base.fixed, base.fixed.beyond(column), 56, own) == 56

@@ -1,6 +1,7 @@
 """A number that changed: what the poses leave open of it is not printed as if it were known."""
 
 import math
+from dataclasses import replace
 
 from armscope.comparison.valued import Valued, number_line, wave_part
 
@@ -39,6 +40,17 @@ def test_a_unit_without_a_known_range_is_told_as_it_is():
     number = Valued("x", "kg", (0.0, 1.0), (9.0, 9.0), (0.0, 1.0), (0.0, 9.0), 1.0, (-17.0, 19.0))
     assert not number.unknown
     assert math.isclose(number.difference, 1.0)
+
+
+def test_a_direction_that_the_rows_do_not_determine_is_no_number_whatever_its_unit():
+    """Seen: 0 (-5764 ... 5764) µrad per m/s², where a drive shows some µrad on any arm."""
+    interval, zeros = (-5.8e-3, 5.8e-3), (0.0, 0.0)
+    number = Valued("x", "rad/(m/s2)", (1e-3, 1e-3), (3e-3,) * 2, zeros, (0.0, 3e-3), 0.0, interval, plausible=1e-5)
+    assert number.unknown
+    assert number_line(number) == "x: these poses leave open what it is, and how far it changed"
+    sure = replace(number, difference=4e-3, interval_95=(1e-3, 7e-3))
+    assert not sure.unknown, "that it changed is told"
+    assert not replace(number, interval_95=(-5e-5, 5e-5)).unknown
 
 
 def test_parts_of_waves_have_names():

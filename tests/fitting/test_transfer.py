@@ -10,7 +10,7 @@ import pytest
 from armscope.core.inputs import InputError
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.registration import fit_frames
-from armscope.fitting.transfer import transfer
+from armscope.fitting.transfer import belongs_to_the_arm, transfer
 from armscope.physics.effect import Driver, Part
 from armscope.physics.freeform import held
 from armscope.physics.model import FittedModel, predict
@@ -55,6 +55,16 @@ def test_what_belongs_to_the_arm_is_applied_and_what_belongs_to_the_run_is_not(
     assert bare.left_mm > 5 * result.left_mm
     errors = 1e3 * (other.positions - predict(result.model, other))
     assert np.sqrt(np.mean(np.sum(errors**2, axis=1))) == pytest.approx(result.left_mm, rel=1e-9)
+
+
+def test_a_drive_that_works_loose_between_runs_is_of_these_runs(other: Recordings) -> None:
+    """What changed between recordings was taken for what all of them share, and had no name."""
+    two = replace(other, run=np.where(np.arange(len(other)) < 60, "a", "b"))
+    placed = [each for each in library(arm_named("six-axis"), two) if each.name == "compliance_change"]
+    assert len(placed) > 2
+    assert {each.driver: belongs_to_the_arm(each) for each in placed} == {
+        "temperature": True, "between runs a and b": False
+    }  # fmt: skip
 
 
 def test_the_parameters_stay_as_they_were_learned(learned: tuple[Arm, FittedModel], other: Recordings) -> None:

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from armscope.cli import app
 from armscope.comparison import Change, Comparison, Left, Seen, Valued, compare
+from armscope.comparison.bad_shots import BadShot
 from armscope.comparison.constants import SHARED
 from armscope.comparison.noisier import Noisier, Scatter
 from armscope.report.pages.changes import first_to_last, in_odds, recordings_table, write_changes
@@ -242,11 +243,19 @@ def test_where_nothing_is_named_no_tile_counts_to_zero(tmp_path):
 
 def test_what_was_repaired_has_no_cure_on_the_page(tmp_path):
     less = replace(CHANGE, kind="went", alternatives=("link geometry at link 3",), left_mm=0.8, taken_back_mm=0.97)
+    less = replace(less, worse_sigmas=9.0)
     said = words_of(replace(FOUND, changes=(less,)), tmp_path)
     assert "To do: Nothing is to be corrected: there is less of it in after than in before" in said
     assert "Cure" not in said
     assert "before anything is mended" not in said
     assert "Taken back, 0.97 mm in place of 0.8 mm per axis would be left in after." in said
+
+
+def test_bad_shots_are_listed_on_the_page(tmp_path):
+    shots = (BadShot("after", "", "45", 5.1), BadShot("after", "monday", "59", 4.9))
+    said = words_of(replace(FOUND, bad_shots=shots), tmp_path)
+    assert "Rows that look like bad shots, and count for little: 45 of" in said
+    assert "59 of &quot;after&quot;, monday (4.9 mm off)." in said.replace('"', "&quot;")
 
 
 def test_numbers_of_the_file_carry_their_unit(tmp_path):

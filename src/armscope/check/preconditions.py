@@ -53,16 +53,21 @@ def check_table(arm: Arm, recordings: Recordings) -> Checked:
     return Checked(table, tuple(notices))
 
 
-def refuse_unusable(arm: Arm, recordings: Recordings) -> None:
+def refuse_unusable(arm: Arm, recordings: Recordings, anyway: str = "diagnoses") -> None:
     """The one judgement of a table, `armscope check`'s: where something makes results meaningless, none are made.
 
     Orientations that are not the tool's are no reason: a diagnosis leaves them out by itself and says so.
+
+    Args:
+        arm: the arm that it should be of.
+        recordings: the table.
+        anyway: what --anyway does with it all the same.
 
     Raises:
         InputError: it holds a problem.
     """
     suspicions = what_forbids(replace(recordings, orientation=None), arm)
-    refuse_problems(suspicions, recordings.source)
+    refuse_problems(suspicions, recordings.source, anyway)
 
 
 def rows_needed(arm: Arm, recordings: Recordings) -> int:

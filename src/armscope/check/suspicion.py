@@ -46,8 +46,13 @@ def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
     return [f"{each.weight}: {each.text()}" for each in ordered]
 
 
-def refuse_problems(suspicions: Sequence[Suspicion], source: object) -> None:
+def refuse_problems(suspicions: Sequence[Suspicion], source: object, anyway: str = "diagnoses") -> None:
     """Where something makes results meaningless, none are made.
+
+    Args:
+        suspicions: what looks wrong.
+        source: in which table.
+        anyway: what --anyway does with it all the same.
 
     Raises:
         InputError: there is a problem among them.
@@ -55,6 +60,6 @@ def refuse_problems(suspicions: Sequence[Suspicion], source: object) -> None:
     problems = [each for each in suspicions if each.weight == "problem"]
     if problems:
         more = f" ({len(problems) - 1} more: see `armscope check`)" if len(problems) > 1 else ""
-        anyway = "" if problems[0].kind == TOO_SHORT else "--anyway diagnoses it all the same."
-        cure = f"{problems[0].cure} {anyway}".strip()
+        go_on = "" if problems[0].kind == TOO_SHORT else f"--anyway {anyway} it all the same."
+        cure = f"{problems[0].cure} {go_on}".strip()
         raise InputError(source, "", problems[0].statement, f"no result of it would hold{more}", cure)

@@ -25,12 +25,13 @@ def compare(
     arms: Annotated[
         bool, typer.Option("--arms", help="the tables are of several arms of one type: say which is unlike the others")
     ] = False,
+    anyway: Annotated[bool, typer.Option("--anyway", help="go on though the check says a table is unusable")] = False,
     json: Annotated[bool, typer.Option("--json", help="print comparison.json in place of words")] = False,
 ) -> None:
     """Say what changed between two or more recordings of one arm: after a crash, a repair, a year.
 
     Causes that came, went, grew or shrank, each with a 95 % interval of the difference, and one joint test that nothing
-    changed. Base and tool may differ.
+    changed. Base and tool may differ. Ends with 2 when a table can't be used: then nothing is written, unless --anyway.
     """
     from armscope.cli.robots import arm_and_tables, print_json
     from armscope.recordings.folders import others_than, robot_for, table_in
@@ -40,6 +41,11 @@ def compare(
         print(f"note: {other} differs from {used}, which is taken for all recordings", file=sys.stderr)
     arm, read = arm_and_tables(used, [table_in(each) for each in recordings])
     tables = dict(zip(_names(recordings), read, strict=True))
+
+    from armscope.check.preconditions import refuse_unusable
+
+    for table in [] if anyway else read:
+        refuse_unusable(arm, table, anyway="compares")
 
     from armscope.comparison import compare as compare_recordings
 

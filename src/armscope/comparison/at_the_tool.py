@@ -20,7 +20,7 @@ def moved_mm(model: SharedModel, possible: Possible, change: Array) -> float:
     Returns:
         RMS of the distance in the recordings that have it, mm.
     """
-    moved = _beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change)
+    moved = beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change)
     return float(np.sqrt(3) * _rms(model, possible, moved))
 
 
@@ -38,12 +38,30 @@ def taken_back_mm(model: SharedModel, possible: Possible, change: Array) -> tupl
     Returns:
         RMS per axis, mm, of each.
     """
-    left = _beyond_frames(model, model.residual)
-    moved = _beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change)
+    left = beyond_frames(model, model.residual)
+    moved = beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change)
     return _rms(model, possible, left), _rms(model, possible, left - moved)
 
 
-def _beyond_frames(model: SharedModel, numbers: Array) -> Array:
+def worse_sigmas(model: SharedModel, possible: Possible, change: Array) -> float:
+    """By how many standard errors more is left of the rows with a change if it is taken back; below zero: less.
+
+    Args:
+        model: what recordings share.
+        possible: the change.
+        change: (q,) its size, SI units.
+
+    Returns:
+        Of the mean over the rows, each paired with itself: on other poses of this kind it would be as much.
+    """
+    rows = np.isin(model.group, possible.sets)
+    left = (beyond_frames(model, model.residual) / model.weight)[rows]
+    back = left - (beyond_frames(model, model.columns_of(possible.number, possible.sets) @ change) / model.weight)[rows]
+    more = np.sum((back**2 - left**2).reshape(-1, 3), axis=1)
+    return float(more.mean() / np.sqrt(model.dispersion * np.var(more, ddof=1) / len(more)))
+
+
+def beyond_frames(model: SharedModel, numbers: Array) -> Array:
     """(3N,) what is left of weighed numbers once every recording has the base and tool that suit it best."""
     return np.asarray(numbers - model.frames @ np.linalg.lstsq(model.frames, numbers, rcond=None)[0])
 

@@ -17,13 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri, stdtrit
 
-from armscope.comparison.at_the_tool import moved_mm, taken_back_mm
+from armscope.comparison.at_the_tool import moved_mm, taken_back_mm, worse_sigmas
+from armscope.comparison.bad_shots import bad_shots
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
+from armscope.comparison.gained import more_or_less, more_sigmas
+from armscope.comparison.levels import own_values
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
-from armscope.comparison.result import Change, Comparison, Kind, Left
+from armscope.comparison.result import SENSE, Change, Comparison, Kind, Left, Sense
 from armscope.comparison.search import likeliest_changes
 from armscope.comparison.seen import seen
 from armscope.comparison.sets import of_same_poses, stacked
@@ -80,6 +83,7 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         left=tuple(map(Left, *(each.tolist() for each in model.left_mm(taken)))),
         changes=changes,
         noisier=noisy,
+        bad_shots=bad_shots(model, table, names),
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
     )
 
@@ -115,8 +119,7 @@ def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: in
     """The likeliest changes beside noise, and errors of each arm's own, that are as large as without these changes."""
     taken = likeliest_changes(model, possible, tried)
     if model.of_arms and not taken:
-        model.settle(_hidden(model, possible))
-        taken = likeliest_changes(model, possible, tried)
+        taken = _one_that_hid(model, possible, tried)
     for _ in range(SHARED.weighings):
         if not taken or model.settled:
             break
@@ -129,14 +132,21 @@ def _settled_changes(model: SharedModel, possible: Sequence[Possible], tried: in
     return taken
 
 
-def _hidden(model: SharedModel, possible: Sequence[Possible]) -> list[Possible]:
-    """The likeliest of errors beside those that most arms have: it makes such errors seem usual, and would hide itself.
+def _one_that_hid(model: SharedModel, possible: Sequence[Possible], tried: int) -> list[Possible]:
+    """What is sure once an error does not count for what is usual of arms: it would make itself usual, and hide.
 
-    What is sure without it in what is usual, is looked for then.
+    First the likeliest beside what most arms have, then what is likeliest beside that.
     """
     model.settle((), of_most=True)
-    scores = model.scores(possible, ())
-    return [possible[int(np.argmax([score.nats for score in scores]))]]
+    seen: list[Possible] = []
+    for _ in range(SHARED.hidden):
+        rest = [each for each in possible if each not in seen]
+        scores = model.scores(rest, ())
+        seen.append(rest[int(np.argmax([score.nats for score in scores]))])
+        model.settle(seen[-1:])
+        if taken := likeliest_changes(model, possible, tried):
+            return taken
+    return []
 
 
 def _masks(families: Sequence[tuple[int, ...]], of_arms: bool) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
@@ -191,7 +201,7 @@ def _change(
     alike = [other for other in taken if other.placed is found.placed and other is not found]
     # values of its own in every recording hold all changes of the effect: those beside them would be the same columns
     beside = [other for other in taken if other.placed is not found.placed]
-    values, covariance, free = model.own_values(found.number, beside, len(names))
+    values, covariance, free = own_values(model, found.number, beside, len(names))
     q = len(found.placed.terms)
     there, against = _but_for_it_alike(found, alike)
     inside, outside = (np.isin(np.arange(len(names)), sets) for sets in (there, against))
@@ -206,13 +216,17 @@ def _change(
     change = contrast @ values.reshape(len(names), q)
     rms, (left, back) = moved_mm(model, found, change), taken_back_mm(model, found, change)
     title, where, held = plain(str(found.placed)), *(tuple(names[k] for k in sets) for sets in (there, against))
-    kind = _kind(parameters, inside, outside)
+    shares = inside / inside.sum(), outside / outside.sum()
+    sense = more_or_less(found.placed, parameters, more_sigmas(model, found, beside, *shares))
+    kind = _kind(parameters, inside, outside, sense)
     if kind in ("went", "shrank") and back < left:
         kind = "changed"  # it cannot be less where taking it back leaves less: how large it is, is told too surely
     until = next((names[k] for k in found.against if k > max(found.sets)), "")
     numbers = tuple(parameters)
     place = found.placed.name, found.placed.location, title
-    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back, found.placed.variant)
+    beyond = worse_sigmas(model, found, change)
+    variant = found.placed.variant
+    return Change(*place, where, held, kind, rms, p, numbers, others, until, left, back, variant, sense, beyond)
 
 
 def _but_for_it_alike(found: Possible, others: Sequence[Possible]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -238,7 +252,8 @@ def _valued(term: Term, values: Array, covariance: Array, change: tuple[float, f
     )
     difference, half = change[0] / term.si, change[1] / term.si
     interval = (difference - half, difference + half)
-    return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval)
+    plausible = float(term.plausible / term.si)
+    return Valued(term.name, term.unit, value, error, change_since, error_since, difference, interval, plausible)
 
 
 def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> bool:
@@ -249,8 +264,15 @@ def _together_there(parameters: Sequence[Valued], where: NDArray[np.bool_]) -> b
     return bool(np.sum((means / np.maximum(spread, 1e-300)) ** 2) > chdtri(len(parameters), 0.05))
 
 
-def _kind(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
-    """What became of the parameter that changed most surely."""
+def _kind(
+    parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_], sense: Sense | None = None
+) -> Kind:
+    """What became of the parameter that changed most surely; only that it changed where its sense is not that."""
+    became = _became(parameters, inside, outside)
+    return became if sense in (None, SENSE.get(became)) else "changed"
+
+
+def _became(parameters: Sequence[Valued], inside: NDArray[np.bool_], outside: NDArray[np.bool_]) -> Kind:
     surest = max(parameters, key=lambda each: abs(each.difference) / (each.interval_95[1] - each.interval_95[0]))
     values, errors = np.array(surest.values), np.array(surest.stderrs)
     before, after = np.mean(values[outside]), np.mean(values[inside])

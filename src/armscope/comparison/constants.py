@@ -26,7 +26,19 @@ class ComparingRules(Constants):
         "convention: three; less is nothing and noise",
         unit="standard errors",
     )
+    beyond_all: float = constant(
+        10.0,
+        "times what arms show, from which half an interval about nothing says that the rows leave a change open",
+        "judgement: ten times as much is on no arm",
+    )
+    clearly_worse: float = constant(
+        3.0,
+        "by which rows leave more once a change is taken back, or less, from which that is said",
+        "convention: three",
+        unit="standard errors",
+    )
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
+    named_shots: int = constant(5, "bad shots that are told by name", "judgement: as many are looked at", unit="rows")
     many_alike: int = constant(
         8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"
     )
@@ -93,6 +105,16 @@ class SharedModelRules(Constants):
         "numbers that are free when a recording is fitted alone, from which its noise is known by that",
         "derived: to 1 / sqrt(2 x 20) = 16 %; with one free, eight pairs of 20 seemed to have changed",
     )
+    row_weighings: int = constant(
+        6, "of rows by how far off they lie, at most", "judgement: bad rows then count for nothing", unit="rounds"
+    )
+    most_bad: float = constant(
+        0.05, "share of a recording's rows that may hide each other", "judgement: one in twenty; more are no bad shots"
+    )
+    left_out: float = constant(1e-6, "weight of a row that is left out", "judgement: a thousandth of its size")
+    same_weight: float = constant(
+        0.01, "change of a row's weight below which they are settled", "judgement: a hundredth of a row"
+    )
     widened: float = constant(
         10.0,
         "times the size of a shared effect, as the prior of a change that is told",
@@ -116,6 +138,19 @@ class SharedModelRules(Constants):
         0.1,
         "by which errors of each arm's own become smaller in a round, at most",
         "judgement: none goes at once",
+    )
+    hidden: int = constant(
+        3,
+        "differences, each of which is tried as no part of what is usual of arms",
+        "judgement: of five planted zeros the first alone missed two, three miss one",
+    )
+    least_told: float = constant(
+        1.0, "numbers from which a place says how large an error of each arm's own is", "derived: fewer are none"
+    )
+    least_worth: float = constant(
+        2.0,
+        "numbers that all places of a kind are worth for one, at least",
+        "judgement: two; else a place of which the rows tell little has any size",
     )
     least_variance: float = constant(
         1e-12, "of the noise", "derived: far below any instrument's; exact rows would have none", unit="mm2"

@@ -8,11 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.comparison.constants import COMPARING
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison
 from armscope.comparison.valued import Valued
+from armscope.core.numerals import size_of
 from armscope.core.words import enumerated
 from armscope.physics.effect import Effect
+from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
@@ -55,14 +58,40 @@ def remedy_of(found: Comparison, change: Change) -> Remedy:
         done = f"Nothing is left to be done about what {enumerated(change.where)} alone had."
         return Remedy(known.physics, _why(found, change), "", done, "")
     numbers = [difference_of(number) for number in change.parameters if not number.unknown]
-    verb, worth = "it differs" if found.of_arms else "it moved", _worth(change)
+    verb, before, after = "it differs" if found.of_arms else "it moved", "", _worth(change)
     if (turned := _on_the_other_side(found, change)) is not None:
-        numbers, verb, worth = [turned], "it is off", ""
-    elif known is not ANOTHER_LOAD and (change.is_less or change.is_hidden):  # a load is weighed, not taken back
-        return Remedy(known.physics, _why(found, change), "", _nothing_to_mend(change), "")
-    instruction = known.cure.instruction.format_map(_words(known, change.location, numbers, verb))
+        numbers, verb, after = [turned], "it is off", _all_of_it(change)
+    elif known is not ANOTHER_LOAD:  # a load is weighed, not taken back
+        if change.is_less or change.is_hidden:
+            return Remedy(known.physics, _why(found, change), "", _nothing_to_mend(change), "")
+        before = _if_more(found, change) if is_open(change) else ""
+    cure = known.cure.instruction.format_map(_words(known, change.location, numbers, verb))
     rule = with_numbers(known.cure.rule.replace("`", ""), [*numbers, *_as_a_wave(numbers)], change.effect)
-    return Remedy(known.physics, _why(found, change), known.confirm, f"{instruction}{worth}", rule)
+    return Remedy(known.physics, _why(found, change), known.confirm, f"{before}{cure}{after}", rule)
+
+
+def is_open(change: Change) -> bool:
+    """Whether neither how large a cause is, nor what is left without the change, says that it is to be taken back."""
+    return not change.known_sense and not change.is_better_back
+
+
+def _if_more(found: Comparison, change: Change) -> str:
+    """What is said before a cure that may be none, and what settles whether it is one."""
+    where, others = enumerated(change.where), enumerated(change.against)
+    known = f"Whether there is more of it in {where} than in {others} or less is not known"
+    if found.of_arms:
+        return f"{known}: diagnose each, and mend {where} only if it is the one with more. Then: "
+    return (
+        f"{known}: it stays if it was repaired, and is taken back if it came with a crash. The log says which, or "
+        f"{'its mastering mark, or ' * (change.effect == JOINT_OFFSET.name)}a diagnosis of each. After a crash: "
+    )
+
+
+def _all_of_it(change: Change) -> str:
+    """That a number is no change."""
+    (number,) = change.parameters
+    size = size_of(number.difference, number.unit, sign=True)
+    return f" That is all of it as it is now: it went through to the other side, by {size}."
 
 
 def _on_the_other_side(found: Comparison, change: Change) -> Parameter | None:
@@ -92,12 +121,14 @@ def _nothing_to_mend(change: Change) -> str:
             f"Nothing is to be corrected by this alone.{_worth(change)} {hides}: diagnose {where} and mend all of it."
         )
     less = f"there is less of it in {where} than in {others}, and to take the change back would bring it again"
+    if change.is_better_back:
+        return f"Nothing is to be corrected: {less}. Other errors of the arm come out by it: diagnose {where}."
     return f"Nothing is to be corrected: {less}.{_worth(change)}"
 
 
 def _worth(change: Change) -> str:
-    """What taking a change back would do; empty where it is not known."""
-    if math.isnan(change.taken_back_mm):
+    """What taking a change back would do; empty where it is not known, or may be nothing."""
+    if not abs(change.worse_sigmas) > COMPARING.clearly_worse:
         return ""
     now, back = millimetres(change.left_mm), millimetres(change.taken_back_mm)
     return f" Taken back, {back} in place of {now} per axis would be left in {enumerated(change.where)}."
@@ -134,7 +165,8 @@ def _why(found: Comparison, change: Change) -> str:
         return f"Look at what is done to each arm alone: how {change.where[0]} was assembled, mastered and mounted."
     earlier = [name for name in found.names[: found.names.index(change.where[0])] if name in change.against]
     between = f'between "{earlier[-1]}" and "{change.where[0]}"' if earlier else f'before "{change.where[0]}"'
-    if change.is_less and change.effect != ANOTHER_LOAD.name:
+    other_side = _on_the_other_side(found, change) is not None
+    if change.is_less and change.effect != ANOTHER_LOAD.name and not other_side:
         return (
             f"If that is what was repaired {between}, the repair worked. Else find out what happened then: something "
             "was corrected in the controller, a joint was homed anew, or another cause now makes up for it."

@@ -6,6 +6,7 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from armscope.comparison.bad_shots import BadShot, told_of_shots
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
@@ -24,6 +25,9 @@ UNLIKE = {
 """What a change is called where recordings are of several arms."""
 MOMENT = "compliance_times_moment_"
 Kind = Literal["came", "went", "grew", "shrank", "changed"]
+Sense = Literal["more", "less", ""]
+SENSE: dict[Kind, Sense] = {"came": "more", "grew": "more", "went": "less", "shrank": "less"}
+"""Whether there is more of a cause where it changed, or less."""
 
 
 @dataclass(frozen=True)
@@ -41,8 +45,10 @@ class Change:
         alternatives: causes that explain the change as well (evidence within 20 to 1).
         until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
         left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
-        taken_back_mm: the same if the change were taken back. Where that is more, they have less of it than others.
+        taken_back_mm: the same if the change were taken back. Other errors may make that less or more by chance.
         variant: which form of the effect it is (play: "approach" or "load"); empty where there is one only.
+        sense: whether there is more of it there or less; empty where these recordings leave it open.
+        worse_sigmas: by how many standard errors ``taken_back_mm`` is the larger one; NaN where unknown.
     """
 
     effect: str
@@ -59,16 +65,28 @@ class Change:
     left_mm: float = math.nan
     taken_back_mm: float = math.nan
     variant: str = ""
+    sense: Sense = ""
+    worse_sigmas: float = math.nan
+
+    @property
+    def known_sense(self) -> Sense:
+        """Whether there is more or less of it, by how large it is, or as what became of it says it; "" where open."""
+        return self.sense or SENSE.get(self.kind, "")
 
     @property
     def is_less(self) -> bool:
         """Whether there is less of the cause where it changed, so that taking the change back would bring it again."""
-        return self.kind in ("went", "shrank") or (self.kind == "changed" and self.taken_back_mm >= self.left_mm)
+        return self.known_sense == "less"
 
     @property
     def is_hidden(self) -> bool:
-        """Whether there is more of it, and still to take it back alone brings the tool no nearer."""
-        return self.kind in ("came", "grew") and self.taken_back_mm >= self.left_mm
+        """Whether there is more of it, and still to take it back alone surely takes the tool farther away."""
+        return self.known_sense == "more" and self.worse_sigmas > COMPARING.clearly_worse
+
+    @property
+    def is_better_back(self) -> bool:
+        """Whether to take it back surely brings the tool nearer, be there more of it or less."""
+        return self.worse_sigmas < -COMPARING.clearly_worse
 
     @property
     def title_with_doubt(self) -> str:
@@ -128,6 +146,7 @@ class Comparison(InWords):
         noisier: recordings of which more is left than of others, whatever is fitted.
         other_load: that another load at the flange would look like the changes; "" where it would not.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
+        bad_shots: rows that lie far off whatever is fitted, and count for little.
     """
 
     arm: str
@@ -144,6 +163,7 @@ class Comparison(InWords):
     of_arms: bool = False
     other_load: str = ""
     noisier: tuple[Noisier, ...] = ()
+    bad_shots: tuple[BadShot, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, null for what is no number."""
@@ -224,6 +244,7 @@ class Comparison(InWords):
         """In words, a line per cause and number."""
         lines = [self.headline, *([] if self.changes else [self.would_be_seen] * bool(self.would_be_seen))]
         lines.append(f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried")
+        lines += filter(None, [told_of_shots(self.bad_shots)])
         for each in self.changes:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.comparison.bad_shots import weigh_rows
 from armscope.comparison.constants import SHARED
 from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
@@ -49,9 +50,10 @@ class SharedModel:
         self.plausible = np.array([term.plausible for each in self.placed for term in each.terms])
         self._start = np.cumsum([0, *(len(each.terms) for each in self.placed)])
         self.dispersion = 1.0
-        self._robust = self.weight = weight
+        self.robust = self.weight = weight
         self.own = own_errors(model, table, group).weighed(weight) if of_arms else no_own_errors(len(weight))
-        self._noise = self._settled_noise()
+        self.noise = self._settled_noise()
+        weigh_rows(self)
         self.settle(())
         self.dispersion = overdispersion(self._between_halves(table.motor_angles))
         if (load := load_at_the_flange(arm, table)) is not None:
@@ -85,7 +87,7 @@ class SharedModel:
         self._weigh_recordings(taken)
         for _ in range(SHARED.size_rounds if self.of_arms else 0):
             self.own = learned(self.own, self.residual, self.base(taken), of_most)
-            self._noise = self._settled_noise(taken)
+            self.noise = self._settled_noise(taken)
 
     def _weigh_recordings(self, taken: Sequence[Possible]) -> None:
         """Each recording counts by its own noise: pooled, the quiet one's rows would be too sure of themselves.
@@ -94,16 +96,16 @@ class SharedModel:
         as a noisy one, whose rows then show no change. Where a recording is too short to be fitted alone, by what is
         left beside what all share.
         """
-        alone = [each.left(each.base(())) for each in map(self._alone, range(self.group[-1] + 1))]
+        alone = [each.left(each.base(())) for each in map(self.alone, range(self.group[-1] + 1))]
         self.weighed_alone = min(free for _, free in alone) >= SHARED.free_alone
         if self.weighed_alone:
             self._weigh(np.sqrt([variance for variance, _ in alone]))
             return
-        self._reweigh(self._robust / self.weight)
+        self._reweigh(self.robust / self.weight)
         for _ in range(SHARED.weighings):
             left, free = self._left_of_each(taken)
             self._weigh(np.sqrt(np.bincount(self.group, left**2) / free + SHARED.least_square))
-            self._noise = self._settled_noise()
+            self.noise = self._settled_noise()
 
     def _left_of_each(self, taken: Sequence[Possible]) -> tuple[Array, Array]:
         """(3N,) what is left beside changes, as rows are weighed, and (sets,) how many numbers of each are free."""
@@ -113,7 +115,19 @@ class SharedModel:
         """Give recordings weights by their noise (sets,), as multiples of those that they have."""
         variance = np.bincount(self.group) @ noise**2 / len(self.group)
         self._reweigh((np.sqrt(variance) / noise)[self.group])
-        self._noise = float(variance)
+        self.noise = float(variance)
+
+    def trust(self, weights: Array) -> None:
+        """Rows count by ``weights`` (3N,), whatever they counted before."""
+        self._reweigh(weights / self.weight)
+        self.robust = weights
+
+    def weighed_anew(self, weights: Array) -> SharedModel:
+        """The same rows with other weights (3N,)."""
+        other = copy.copy(self)
+        other.trust(weights)
+        other.noise = other._settled_noise()
+        return other
 
     def _reweigh(self, relative: Array) -> None:
         self.weight, self.residual = self.weight * relative, self.residual * relative
@@ -128,13 +142,13 @@ class SharedModel:
             rows = self.group == number
             together = own = (weighed[rows] / self.weight[rows]).reshape(-1, 3)
             if self.weighed_alone:
-                alone = self._alone(number)
+                alone = self.alone(number)
                 base = alone.base(())
-                own, fewer = alone._left_over(base).reshape(-1, 3), alone.left(base)[1]
+                own, fewer = alone.left_by(base).reshape(-1, 3), alone.left(base)[1]
             left.append(LeftOver(own, float(fewer), together, self._moved[:, rows[::3]]))
         return left
 
-    def _alone(self, number: int) -> SharedModel:
+    def alone(self, number: int) -> SharedModel:
         """One recording, with effects of its own."""
         rows = self.group == number
         alone = copy.copy(self)
@@ -142,13 +156,13 @@ class SharedModel:
         alone.residual, alone.frames, alone.effects = self.residual[rows], self.frames[rows], self.effects[rows]
         alone.frames, alone.group = alone.frames[:, np.any(alone.frames != 0, axis=0)], self.group[rows]
         alone.own = no_own_errors(len(alone.residual))
-        alone._noise = alone._settled_noise()
+        alone.noise = alone._settled_noise()
         return alone
 
     def _between_halves(self, angles: Array) -> Iterator[Statistic]:
         """What differs between halves of each recording, for every effect, with frames and effects of its own."""
         for number in range(self.group[-1] + 1):
-            alone = self._alone(number)
+            alone = self.alone(number)
             parts = [np.repeat(half, 3) for half in halves(angles[self.group[::3] == number])]
             changes = [
                 Possible(each, at, self._of(self.plausible, at), part, (), ())
@@ -171,11 +185,11 @@ class SharedModel:
 
         Beside what is shared it is the same as all of it on either side, and which side comes first does not matter.
         """
-        return self.effects[:, self._at(possible.number)] * (possible.there - 0.5)[:, None]
+        return self.effects[:, self.at(possible.number)] * (possible.there - 0.5)[:, None]
 
     def size(self, possible: Possible) -> Array:
         """(q,) of a change's columns beside the same effect where it is shared: what both sides show is what counts."""
-        square = self.effects[:, self._at(possible.number)] ** 2
+        square = self.effects[:, self.at(possible.number)] ** 2
         there, elsewhere = square[possible.there].sum(axis=0), square[~possible.there].sum(axis=0)
         either = there + elsewhere
         return np.asarray(np.sqrt(there * elsewhere / np.where(either > 0, either, 1.0)))
@@ -210,56 +224,32 @@ class SharedModel:
         """What frames leave, what is shared beside them, and changes, too: three of (sets,) RMS per axis, mm."""
         frames = HeldColumns(self.frames, np.zeros(self.frames.shape[1]))
         return [
-            np.sqrt(np.bincount(self.group, self._left_over(base) ** 2) / np.bincount(self.group))
+            np.sqrt(np.bincount(self.group, self.left_by(base) ** 2) / np.bincount(self.group))
             for base in (frames, self.base(()), self.base(taken))
         ]
 
-    def _left_over(self, base: HeldColumns) -> Array:
+    def left_by(self, base: HeldColumns) -> Array:
         """What columns with penalties leave in the rows as they were measured, without their weights, mm."""
         return np.asarray((self.residual - base.columns @ held_values(self.residual, base)) / self.weight)
 
-    def own_values(self, number: int, beside: Sequence[Possible], count: int) -> tuple[Array, Array, float]:
-        """An effect with a value of its own in every recording.
-
-        Args:
-            number: the effect's, of q terms.
-            beside: changes of other effects.
-            count: of the recordings.
-
-        Returns:
-            Values (count q), SI units, their covariance, and how many numbers are free.
-        """
-        others = self.scale > 0
-        others[self._at(number)] = False
-        base = self.base(beside, others, self.own.other_than(self.effects[:, self._at(number)]))
-        own = np.hstack([self.columns_of(number, (k,)) for k in range(count)])
-        # what one recording alone does not tell stays at the prior
-        scale = np.tile(self._of(self.scale, number), count)
-        scale = np.where(scale > 0, scale, 1.0)
-        held = np.concatenate([base.penalty, self._noise / (SHARED.widened * scale) ** 2])
-        whole = HeldColumns(np.hstack([base.columns, own]), held, base.drawn)
-        inverse = np.linalg.inv(whole.gram + np.diag(held))
-        values = (inverse @ (whole.columns.T @ self.residual))[-own.shape[1] :]
-        variance, free = self.left(whole)
-        return values, np.asarray(self.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :]), free
-
     def _of(self, numbers: Array, number: int) -> Array:
         """An effect's part of numbers that stand one per term."""
-        return numbers[self._at(number)]
+        return numbers[self.at(number)]
 
-    def _at(self, number: int) -> slice:
+    def at(self, number: int) -> slice:
         """Where the terms of an effect stand among those of all."""
         return slice(self._start[number], self._start[number + 1])
 
     def columns_of(self, number: int, sets: tuple[int, ...]) -> Array:
         """(3N, q) an effect's columns in the rows of some recordings."""
-        return self.effects[:, self._at(number)] * np.isin(self.group, sets)[:, None]
+        return self.effects[:, self.at(number)] * np.isin(self.group, sets)[:, None]
 
     def base(
         self,
         taken: Sequence[Possible],
         kept: NDArray[np.bool_] | None = None,
         own: NDArray[np.bool_] | None = None,
+        prior_mm: float = SHARED.prior_mm,
     ) -> HeldColumns:
         """All that a change stands beside: errors of each arm's own, frames, changes that were taken, what is shared.
 
@@ -267,6 +257,7 @@ class SharedModel:
             taken: the changes.
             kept: (p,) of the shared effects' terms; None for all that can be seen.
             own: (c,) of the errors of each arm's own; None for all.
+            prior_mm: how large shared effects are at the tool.
 
         Returns:
             Columns in units of which one costs as much as the noise, but for frames and changes, which are free.
@@ -275,8 +266,8 @@ class SharedModel:
         drawn = self.own.sized if own is None else self.own.sized[:, own]
         free = np.hstack([self.frames, *(self.columns(each) for each in taken)])
         free = free / np.maximum(np.linalg.norm(free, axis=0), 1e-30)
-        shared = self.effects[:, kept] * self.scale[kept]
-        penalty = np.full(drawn.shape[1] + free.shape[1] + shared.shape[1], self._noise)
+        shared = self.effects[:, kept] * self.scale[kept] * (prior_mm / SHARED.prior_mm)
+        penalty = np.full(drawn.shape[1] + free.shape[1] + shared.shape[1], self.noise)
         # a wrist that was held leaves part of its tool to the base
         penalty[drawn.shape[1] : drawn.shape[1] + free.shape[1]] = SHARED.held
         return HeldColumns(np.hstack([drawn, free, shared]), penalty, drawn.shape[1])
@@ -287,10 +278,10 @@ class SharedModel:
 
     def _settled_noise(self, taken: Sequence[Possible] = ()) -> float:
         """The variance that the prior is weighed by, found with itself."""
-        self._noise = float(np.mean(self.residual**2)) / SHARED.first_noise + SHARED.least_variance
+        self.noise = float(np.mean(self.residual**2)) / SHARED.first_noise + SHARED.least_variance
         base = self.base(taken)
-        held = base.penalty == self._noise
+        held = base.penalty == self.noise
         for _ in range(SHARED.noise_rounds):
-            base = base.held(np.where(held, self._noise, base.penalty))
-            self._noise = max(self.left(base)[0], SHARED.least_variance)
-        return self._noise
+            base = base.held(np.where(held, self.noise, base.penalty))
+            self.noise = max(self.left(base)[0], SHARED.least_variance)
+        return self.noise

@@ -9,12 +9,9 @@ from scipy.special import fdtri
 
 from armscope.comparison.constants import COMPARING
 from armscope.comparison.dispersion import Possible
+from armscope.comparison.gained import cannot_be_negative
 from armscope.comparison.result import Change
 from armscope.comparison.shared_model import SharedModel
-from armscope.physics.registry import effect_named
-
-NOT_NEGATIVE = ("backlash",)
-"""Beside what gives way: a gap that is less than none is none."""
 
 
 def stands(model: SharedModel, found: Possible, change: Change, taken: Sequence[Possible], tried: int) -> bool:
@@ -37,9 +34,7 @@ def stands(model: SharedModel, found: Possible, change: Change, taken: Sequence[
 
 def _impossible(change: Change) -> bool:
     """Whether what cannot be below zero is."""
-    known = effect_named(change.effect)
-    bounded = change.effect in NOT_NEGATIVE or (known is not None and known.nonnegative)
-    if not bounded or len(change.parameters) != 1:  # mass moments carry their sign
+    if not cannot_be_negative(change.effect, len(change.parameters)):
         return False
     (number,) = change.parameters
     return any(

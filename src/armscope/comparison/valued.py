@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+from armscope.comparison.constants import COMPARING
 from armscope.core.numerals import shown_unit
 from armscope.physics.constants import PLAUSIBLE
 from armscope.verdict.effects import INTERVAL
@@ -24,6 +26,7 @@ class Valued:
             where all share what these poses leave open.
         difference: with the change less without it.
         interval_95: of the difference.
+        plausible: how large it is on arms.
     """
 
     name: str
@@ -34,6 +37,7 @@ class Valued:
     since_first_stderrs: tuple[float, ...]
     difference: float
     interval_95: tuple[float, float]
+    plausible: float = math.inf
 
     @property
     def left_open(self) -> bool:
@@ -44,8 +48,12 @@ class Valued:
     def unknown(self) -> bool:
         """Whether the poses leave open how far it changed, too: what is known is only how it moves beside others."""
         low, high = self.interval_95
-        says_nothing = low < 0 < high and (high - low) / 2 > WHOLE_RANGE.get(self.unit, float("inf"))
-        return self.left_open and says_nothing
+        half = (high - low) / 2
+        if not low < 0 < high:
+            return False
+        return half > COMPARING.beyond_all * self.plausible or (
+            self.left_open and half > WHOLE_RANGE.get(self.unit, math.inf)
+        )
 
 
 def wave_part(name: str) -> str:

@@ -86,7 +86,8 @@ def belongs_to_the_arm(placed: Placed) -> bool:
     curve_of_a_run = placed.parametrisation == "curve" and any(
         follows("run", product.driver) for term in placed.terms for product in term.products
     )
-    return placed.family not in ("drift", "frame") and not curve_of_a_run
+    # since some moment: whoever compares recordings would take what changed between them for what all of them share
+    return placed.family not in ("drift", "frame") and not curve_of_a_run and not placed.effect.jumps
 
 
 def _applied(model: FittedModel, wanted: Collection[str] | None) -> tuple[tuple[Part, ...], tuple[Part, ...]]:

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.comparison import Change, Comparison, Valued
+from armscope.comparison.bad_shots import told_of_shots
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
@@ -20,7 +21,7 @@ from armscope.comparison.valued import wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.core.words import enumerated
-from armscope.report.figures.history import MOST_PANELS, history_figure, history_table
+from armscope.report.figures.history import MOST_PANELS, history_figure, history_table, told_numbers
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
 from armscope.verdict.wording import capitalised, decimals_for, millimetres, places_in_words, read_parameter
@@ -33,6 +34,8 @@ SMALLEST = 1e-6
 """Smaller probabilities are not told apart: no test's assumptions hold so far out."""
 MOST_LISTED = 4
 """Of more recordings the first and the last are named."""
+MOST_SHOTS = 20
+"""Bad shots that the page names."""
 RARE = 0.01
 """Below it a probability is told as one in so many."""
 
@@ -79,9 +82,9 @@ def write_changes(found: Comparison, folder: Path) -> Path:
     history = history_table(found)
     write_json(folder / DATA, found.to_json())
     write_table(folder / TABLE, history)
-    if found.changes:
+    numbers = len(told_numbers(found))
+    if numbers:
         save_figure(history_figure(found), folder / FIGURE, formats=("png", "svg"))
-    numbers = sum(len(each.parameters) for each in found.changes)
     tag, answer = _answer(found)
     beside = " ".join(filter(None, (told_of(found.noisier), found.other_load, found.not_comparable)))
     first = f"{found.told}." if found.changes else found.headline.replace("p = ", "p\u00a0=\u00a0")
@@ -97,14 +100,15 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         answer=answer,
         tiles=_tiles(found),
         cards=[_card(found, change) for change in found.changes],
-        figure=folder / "history.svg" if found.changes else None,
+        figure=folder / "history.svg" if numbers else None,
         left_out=max(0, numbers - MOST_PANELS),
         history=history,
         recordings=recordings_table(found),
+        shots=capitalised(f"{shots}.") if (shots := told_of_shots(found.bad_shots, MOST_SHOTS)) else "",
         seen=seen_table(found),
         power=COMPARING.power,
         prior_mm=SHARED.prior_mm,
-        files=FILES[1:] if found.changes else (DATA, TABLE),
+        files=FILES[1:] if numbers else (DATA, TABLE),
     )
     return folder / PAGE
 
