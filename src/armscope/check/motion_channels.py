@@ -10,13 +10,13 @@ import numpy as np
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_readings import Samples, left_along
 from armscope.check.suspicion import Suspicion
-from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import channels
 from armscope.motion.constants import LIBRARY
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
+from armscope.verdict.counting import times
 from armscope.verdict.wording import percent
 
 SIGN = "has the sign opposite"
@@ -103,11 +103,11 @@ def _noise_alone(effort: Array, asked: Array, samples: Samples, j: int) -> str |
     """What a torque lacks of all that a joint's torque follows; None where it follows any of it."""
     everything = np.column_stack([_friction(samples, j), asked, samples.ddq[:, j]])
     share = 1 - _left(effort, everything) / max(float(np.var(effort)) * len(effort), 1e-300)
-    times = float(np.std(asked)) / max(float(np.std(effort)), 1e-300)
-    if share > MOTION.of_noise or times < MOTION.other_size:
+    more = float(np.std(asked)) / max(float(np.std(effort)), 1e-300)
+    if share > MOTION.of_noise or more < MOTION.other_size:
         return None
     return (
-        f"the stated masses ask for {rounded(times)} times as much, and neither they nor friction and acceleration of "
+        f"the stated masses ask for {times(more)} times as much, and neither they nor friction and acceleration of "
         f"joint {j + 1} explain more than {percent(share)} of it"
     )
 

@@ -13,9 +13,12 @@ import numpy as np
 
 from armscope.check.motion_channels import OF_MASSES, SIGN, Channels, odd_channels
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_along, read_otherwise, zeros_elsewhere
+from armscope.check.motion_directions import left_of_either_sign, other_way_round, told_by_masses
+from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_along, read_otherwise, tried_readings
 from armscope.check.motion_signs import signs_and_sizes
+from armscope.check.motion_zeros import moved_zeros, zeros_elsewhere
 from armscope.check.suspicion import Suspicion
+from armscope.core.sampling import spread_evenly
 from armscope.robot.dynamics import MovingArm
 
 
@@ -44,6 +47,28 @@ class _Table:
         """Logarithm of the share that each joint's motion leaves of its torque, summed."""
         return float(np.log(left_along(self.samples, self.arm)[0]).sum())
 
+    def counted(self, *others: OtherReading | None) -> OtherReading | None:
+        """With joints counted the other way round, if that explains more than other readings and zeros elsewhere."""
+        counted = other_way_round(self.samples, self.arm, self.of.names)
+        if counted is None:
+            return None
+        least = left_of_either_sign(counted.samples, self.arm)
+        few = self.samples.rows(spread_evenly(len(self.samples.q), MOTION.reading_rows))
+        rivals = chain(
+            (each.samples for each in others if each is not None),
+            (moved for _, _, moved in moved_zeros(few, self.arm)),
+            (each.then(few) for each in tried_readings(few, self.arm)),
+        )
+        return counted if all(left_of_either_sign(each, self.arm) > least for each in rivals) else None
+
+    def of_either(self, odd: Suspicion) -> Suspicion:
+        """A sign as told; where masses do not tell it from a position that is counted the other way, as either."""
+        joint = next((j for j, name in enumerate(self.of.names) if odd.statement.startswith(f"{name} {SIGN}")), None)
+        if joint is None or told_by_masses(self.samples, self.arm, joint):
+            return odd
+        either = f" Or q{joint + 1}, with its speeds, is counted the other way round: masses tell these not apart."
+        return replace(odd, cure=odd.cure + either)
+
     def turned(self, odd: list[Suspicion]) -> _Table:
         """With every sign turned of which that is told."""
         names = {each.statement.split()[0] for each in odd if _of_sign(each)}
@@ -68,8 +93,11 @@ def mistakes(samples: Samples, arm: MovingArm, of: Channels) -> list[Suspicion]:
     backward = np.flatnonzero(np.array(of.gains) < 0).tolist()
     table = _Table(samples.turned(backward), arm, replace(of, gains=tuple(map(abs, of.gains))))
     odd, reading = table.odd, table.reading
+    if (counted := table.counted(reading, table.turned(odd).reading)) is not None:
+        return _in_turn(list(counted.told), table.read(counted).odd, "counted so")
+    odd = [table.of_either(each) for each in odd]
     if reading is None:
-        zeros = list(zeros_elsewhere(samples, arm))
+        zeros = list(zeros_elsewhere(table.samples, arm))
         sure = any(each.weight == "problem" for each in zeros)
         return [*zeros, *(each for each in odd if not (sure and OF_MASSES in each.statement))]
     signs, then = [each for each in odd if _of_sign(each)], table.read(reading)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 
 from armscope.check.motion_constants import MOTION
 from armscope.check.suspicion import Suspicion
-from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
 from armscope.robot.dynamics import MovingArm
@@ -46,7 +46,15 @@ class Samples:
 
     def turned(self, joints: Sequence[int]) -> Samples:
         """With the sign of some joints' torque turned."""
-        return replace(self, effort=np.where(np.isin(np.arange(self.effort.shape[1]), joints), -1, 1) * self.effort)
+        return replace(self, effort=self._signs(joints) * self.effort)
+
+    def turned_round(self, joints: Sequence[int]) -> Samples:
+        """With the positions of some joints counted the other way round."""
+        signs = self._signs(joints)
+        return Samples(signs * self.q, signs * self.dq, signs * self.ddq, self.effort)
+
+    def _signs(self, joints: Sequence[int]) -> Array:
+        return np.where(np.isin(np.arange(self.q.shape[1]), joints), -1.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,19 +121,40 @@ def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[OtherReading]:
         return
     if stated >= MOTION.explained:
         return
-    as_degrees = explained(few.scaled(np.pi / 180, ~arm.sliding), arm)
-    if better(as_degrees):
-        then = samples.scaled(np.pi / 180, ~arm.sliding)
-        yield reading(as_degrees, "if positions are degrees", "Call their columns q1_deg ... and dq1_deg_s ....", then)
-        return
-    found = [
-        (explained(few.reordered(order, what), arm), what, order) for order in _orders(arm) for what in MISNUMBERED
-    ]
-    best, what, order = max(found, default=(0.0, JOINTS, ()))
-    if better(best):
-        otherwise = f"with {what} in the order {' '.join(f'{j + 1}' for j in order)}"
-        cure = "Number the columns in the order of the arm's joints, from the base."
-        yield reading(best, otherwise, cure, samples.reordered(order, what), order if what != POSITIONS else ())
+    found = max(tried_readings(few, arm), key=lambda each: each.share)
+    if better(found.share):
+        yield reading(found.share, found.otherwise, found.cure, found.then(samples), found.order)
+
+
+@dataclass(frozen=True, eq=False)
+class TriedReading:
+    """A reading that is tried: how much masses explain then, in words and as what it makes of a table."""
+
+    share: float
+    otherwise: str
+    cure: str
+    then: Callable[[Samples], Samples]
+    order: tuple[int, ...] = ()
+
+
+def tried_readings(few: Samples, arm: MovingArm) -> Iterator[TriedReading]:
+    """Degrees, of all joints or of one, and other orders, each tried on a few samples."""
+    turning = np.flatnonzero(~arm.sliding)
+    for some in [turning, *(turning[[k]] for k in range(len(turning) if len(turning) > 1 else 0))]:
+        which = np.isin(np.arange(arm.n_motors), some)
+        then = partial(Samples.scaled, factor=np.pi / 180, turning=which)
+        if len(some) == 1 < arm.n_motors:
+            otherwise, j = f"if q{some[0] + 1} alone is in degrees", some[0] + 1
+            cure = f"Call its columns q{j}_deg and dq{j}_deg_s, or scale them: the others are as they say."
+        else:
+            otherwise, cure = "if positions are degrees", "Call their columns q1_deg ... and dq1_deg_s ...."
+        yield TriedReading(explained(then(few), arm), otherwise, cure, then)
+    for order in _orders(arm):
+        for what in MISNUMBERED:
+            then = partial(Samples.reordered, order=order, what=what)
+            otherwise = f"with {what} in the order {' '.join(f'{j + 1}' for j in order)}"
+            cure = "Number the columns in the order of the arm's joints, from the base."
+            yield TriedReading(explained(then(few), arm), otherwise, cure, then, order if what != POSITIONS else ())
 
 
 def _as_radians(few: Samples, arm: MovingArm) -> float | None:
@@ -134,62 +163,6 @@ def _as_radians(few: Samples, arm: MovingArm) -> float | None:
     if not turning.any() or unit * np.abs(few.q[:, turning]).max() > 2 * np.pi:
         return None
     return explained(few.scaled(unit, turning), arm)
-
-
-def zeros_elsewhere(samples: Samples, arm: MovingArm) -> Iterator[Suspicion]:
-    """Joints whose angles the masses' torque takes to be a quarter or half turn from where robot.yaml has them.
-
-    As recorded, every torque may have either sign, or gravity point the other way: a zero elsewhere says more than
-    these. Not of the last joint: there, a load that is not stated looks like a zero.
-
-    Yields:
-        The joint and the turn that say most, a problem where they say so much that nothing else would hold.
-    """
-    if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
-        return
-    few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))
-    gravity = arm.gravity_torques(few.q, arm.model.gravity.linear)
-    turned = [_left_by_masses(few, few.q, arm, -2 * gravity), _left_by_masses(few, few.q, arm, either_sign=True)]
-    stated, tried = min(turned, key=lambda left: float(np.log(left).sum())), []
-    for j in np.flatnonzero(~arm.sliding[:-1]).tolist():
-        for turn in MOTION.turned:
-            moved = few.q.copy()
-            moved[:, j] += turn
-            told = float(np.log(stated / _left_by_masses(few, moved, arm)).sum())
-            tried.append((told, j, float(np.degrees(turn))))
-    told, j, turn = max(tried, default=(0.0, 0, 0.0))
-    if told > np.log(MOTION.other_zero):
-        times = f"{rounded(float(np.exp(told)))} times less of all joints' torques"
-        statement = f"with q{j + 1} {turn:+.0f} deg the stated masses leave {times}"
-        cure = (
-            f"Is the zero of joint {j + 1} that of robot.yaml (theta_offset_deg)? A load that is not stated, or an arm "
-            "that stands otherwise, can look alike."
-        )
-        yield Suspicion("problem" if told > np.log(MOTION.no_other_zero) else "hint", statement, cure)
-
-
-def _left_by_masses(
-    samples: Samples, q: Array, arm: MovingArm, more: Array | float = 0.0, either_sign: bool = False
-) -> Array:
-    """(m,) share of each torque beyond friction that the stated masses leave.
-
-    Args:
-        samples: of the motion.
-        q: (N, m) other positions.
-        arm: as stated.
-        more: (N, m) torque beside that of the masses.
-        either_sign: whether a torque may have the sign opposite to theirs.
-
-    Returns:
-        Shares.
-    """
-    rigid = arm.torques(q, samples.dq, samples.ddq, arm.inertial) + more
-    left = []
-    for recorded, asked in beyond_friction(samples, rigid):
-        whole, along = max(float(recorded @ recorded), 1e-300), float(asked @ recorded)
-        along = along if either_sign else max(along, 0.0)
-        left.append(max(1 - along**2 / max(float(asked @ asked), 1e-300) / whole, MOTION.least_left))
-    return np.array(left)
 
 
 def exchanged(samples: Samples, arm: MovingArm, names: Sequence[str]) -> Iterator[OtherReading]:

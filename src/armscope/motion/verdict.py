@@ -32,7 +32,9 @@ class FoundCause:
         driver: what it follows.
         title: the name in words.
         minor: worth little of the mismatch.
-        parameters: with standard errors.
+        parameters: with standard errors. Those of masses come on top of what is stated, in the frame of the joint that
+            carries the link, as in corrected.urdf (of standard D-H rows: before d, a and alpha): mx, my and mz are mass
+            times the place of the centre of mass, kg m; not com_mm of robot.yaml, which lies in the row's frame.
         rms: of its torque at the joint where it is largest.
         unit: of that: N m, or N of a sliding joint.
         joint: at which it is largest.

@@ -125,6 +125,14 @@ class WordingRules(Constants):
     steady: float = constant(
         0.02, "share of its size below which a motion's range is told as one number", "judgement: two digits"
     )
+    countable_times: float = constant(
+        1000.0,
+        "times up to which a factor is told by its digits",
+        "judgement: beyond it what is left is noise, and digits say nothing",
+    )
+    countable_odds: float = constant(
+        9.0, "evidence up to which odds are told by their digits", "judgement: 8000 to 1 is beyond doubt", unit="nats"
+    )
 
 
 REPAIRS, ORDER, WORDS = RepairRules(), OrderRules(), WordingRules()

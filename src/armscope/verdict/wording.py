@@ -12,6 +12,7 @@ from armscope.core.numerals import shown_unit
 from armscope.core.words import enumerated
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
+from armscope.verdict.counting import odds_in_words, with_prefix
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
 from armscope.verdict.schema import Verdict
 
@@ -196,14 +197,6 @@ def _reciprocal(name: str, parameter: Parameter, unit: str) -> str:
     return f"{value} (95 %: {with_prefix(ends[0], unit)} … {with_prefix(ends[1], unit)})"
 
 
-def with_prefix(value: float, unit: str) -> str:
-    """Three significant digits and k, M or G before the unit."""
-    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= size:
-            return f"{value / size:.3g} {prefix}{unit}"
-    return f"{value:.3g} {unit}"
-
-
 def evidence_in_words(nats: float, inclusion: float | None = None) -> str:
     """What a difference in log evidence means, after Kass & Raftery (1995), whose scale is twice the nats.
 
@@ -211,7 +204,7 @@ def evidence_in_words(nats: float, inclusion: float | None = None) -> str:
     """
     if nats < 1:
         return "hardly worth a mention"
-    odds = f"odds of about {float(f'{math.exp(nats):.2g}'):.0f} to 1" if nats < 9 else "odds far beyond a thousand to 1"
+    odds = f"odds {'of about ' if nats < WORDS.countable_odds else ''}{odds_in_words(nats)}"
     strength = "some" if nats < 3 else "strong" if nats < 5 else "very strong" if nats < 15 else "overwhelming"
     if inclusion is not None and inclusion < WORDS.nearly_always:
         strength, odds = "some", f"{odds} on these rows, but not whenever rows are drawn anew"

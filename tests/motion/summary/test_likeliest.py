@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from benchmarks.motion_changing_load import World
 
@@ -11,6 +13,26 @@ from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.verdict.effects import INTERVAL
 from tests.motion.test_changing_load import diagnosed
 from tests.seeds import seeds
+
+
+@pytest.mark.parametrize(
+    ("nats", "words"),
+    [
+        (0.5, "too unsure to be told as one (hardly likelier than none): link mass at link 5, mass −0.34 kg. "),
+        (2.5, "too unsure to be told as one (12 to 1): "),
+        (18.43, "not told as one because all links and all motion together do without it (far beyond a thousand to 1 "),
+    ],
+)
+def test_odds_that_leave_no_doubt_are_not_called_unsure(
+    monkeypatch: pytest.MonkeyPatch, nats: float, words: str
+) -> None:
+    """One link's odds count that link alone; whatever keeps such a name from being told, it is not these."""
+    placed = SimpleNamespace(parameters=(("mass", "kg"),), location="link 5", cause=SimpleNamespace(name="link_mass"))
+    layout = SimpleNamespace(placed=[placed], columns=[np.array([0])])
+    found = SimpleNamespace(rows=SimpleNamespace(layout=layout), coefficients=np.array([-0.34]))
+    monkeypatch.setattr("armscope.motion.summary.likeliest.likeliest_name", lambda selected: (found, 0, nats))
+    monkeypatch.setattr("armscope.motion.summary.likeliest.title", lambda each: "link mass at link 5")
+    assert likeliest_in_words(found).startswith(f"The likeliest name, {words}")  # type: ignore[arg-type]
 
 
 @pytest.mark.long

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from armscope.core.numerals import size_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.summary.judgement import title
 from armscope.motion.summary.unnamed_masses import likeliest_name
+from armscope.verdict.counting import odds_in_words
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 def likeliest_in_words(selected: SelectedCauses) -> str:
@@ -26,5 +26,17 @@ def likeliest_in_words(selected: SelectedCauses) -> str:
     placed, values = layout.placed[number], found.coefficients[layout.columns[number]]
     told = zip(placed.parameters, values, strict=True)
     sizes = ", ".join(f"{name.replace('_', ' ')} {size_of(value, unit, sign=True)}" for (name, unit), value in told)
-    odds = f"{math.exp(nats):.0f} to 1" if nats > 1 else "hardly likelier than none"
-    return f"The likeliest name, too unsure to be told as one ({odds}): {title(placed)}, {sizes}. "
+    return f"The likeliest name, {_not_told(nats)}: {title(placed)}, {sizes}. "
+
+
+def _not_told(nats: float) -> str:
+    """Why a name is not told, by how much likelier it is than that its own link is off without one.
+
+    From where two readings are told apart it is no longer that: then the selection, which weighs all links and motion
+    that took no part, does without it.
+    """
+    if nats >= INDISTINGUISHABLE_NATS:
+        odds = f"{odds_in_words(nats)} at its own link"
+        return f"not told as one because all links and all motion together do without it ({odds})"
+    odds = odds_in_words(nats) if nats > 1 else "hardly likelier than none"
+    return f"too unsure to be told as one ({odds})"
