@@ -18,11 +18,6 @@ def _payload(scene: LoadedArm) -> Array:
     return scene.payload
 
 
-def _carrying(scene: LoadedArm) -> Array:
-    """1 where a payload is stated, 0 where none is carried, or nobody knows."""
-    return np.asarray(np.nan_to_num(recorded(scene, "payload")) > 0, dtype=np.float64)
-
-
 def _force(scene: LoadedArm, location: str, axis: int) -> Array:
     """Weight beyond a frame, in the frame's axes, N."""
     return scene.force(location)[:, axis]
@@ -128,7 +123,6 @@ _WEIGHT = _LOAD | {"weight"}
 
 LOADS: dict[str, DriverKind] = {
     "payload": DriverKind(_payload, follows=frozenset({"payload"})),
-    "carrying": DriverKind(_carrying, needs="payload", follows=frozenset({"payload"})),
     "force": DriverKind(_force, follows=_WEIGHT),
     "torque": DriverKind(_torque, follows=_WEIGHT | {"torque"}, unit="N m"),
     "gravity torque": DriverKind(_gravity_torque, follows=_WEIGHT),

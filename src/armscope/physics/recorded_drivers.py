@@ -62,6 +62,11 @@ def _speed(scene: LoadedArm, j: int) -> Array:
     return np.nan_to_num(recorded(scene, "speed", j))
 
 
+def _carrying(scene: LoadedArm) -> Array:
+    """1 where a payload is stated, 0 where none is carried, or nobody knows."""
+    return np.asarray(np.nan_to_num(recorded(scene, "payload")) > 0, dtype=np.float64)
+
+
 def _warmth(scene: LoadedArm) -> Array:
     """Temperature above the reference, K."""
     return np.nan_to_num(recorded(scene, "temperature") - REFERENCE_TEMPERATURE_C)
@@ -134,6 +139,7 @@ _RUN = frozenset({"run"})
 RECORDED: dict[str, DriverKind] = {
     "approach": DriverKind(side_of_approach, needs="approach"),
     "speed": DriverKind(_speed, needs="speed"),
+    "carrying": DriverKind(_carrying, needs="payload", follows=frozenset({"payload"})),
     "warmth": DriverKind(_warmth, needs="temperature", follows=_RUN, unit="K above 20 C"),
     "hours": DriverKind(_hours, needs="time", follows=_RUN, unit="h"),
     "rows": DriverKind(_rows, follows=_RUN),
