@@ -108,6 +108,7 @@ def test_a_turned_torque_is_no_position_where_masses_say_so(good: Motions) -> No
         assert "counted" not in told.statement + told.cure
 
 
+@pytest.mark.long
 def test_another_order_or_a_zero_elsewhere_is_no_direction(good: Motions) -> None:
     for order in [each for each in permutations(range(5)) if sum(np.array(each) != np.arange(5)) == 2]:
         both = replace(good, q=good.q[:, order], effort=good.effort[:, order])

@@ -17,6 +17,7 @@ from armscope.robot import Arm, chain
 from armscope.verdict.diagnosis import Diagnosis
 from tests.diagnosis.planted import one_run, recorded
 from tests.physics.scenes import arm_named
+from tests.seeds import seeds
 
 QUICK = Settings(resamples=0, cross_validation=False)
 NOISE_MM, GIVE, ROWS = 0.02, 6e-6, 150
@@ -69,7 +70,7 @@ def test_a_drive_that_gives_way_by_more_from_some_row_on_is_told_so(arm: Arm, po
     assert "more from row 91 on" in verdict.headline.replace("\u00a0", " ")
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_drive_that_gives_way_alike_in_all_rows_has_no_change(arm: Arm, poses: Recordings, seed: int) -> None:
     measured = recorded(arm, poses, {("joint_compliance", "joint 2"): [GIVE]}, NOISE_MM, seed)
     assert changes(diagnose(arm, measured, QUICK)) == BOTH[1:]
