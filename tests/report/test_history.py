@@ -50,3 +50,13 @@ def test_names_of_many_numbers_do_not_stand_in_each_other():
     assert len(boxes) == 8
     assert all(above.y0 > below.y1 for above, below in itertools.pairwise(boxes))
     assert min(box.x0 for box in boxes) >= 0
+
+
+def test_products_with_mass_moments_have_no_panel_beside_the_compliance_that_they_are_of():
+    """Each of them is known to thousands of its unit, and was drawn as what differs."""
+    moments = tuple(replace(NUMBER, name=f"compliance_times_moment_{n}", unit="rad/(m/s^2)") for n in (1, 2, 3))
+    compliance = replace(NUMBER, name="compliance", unit="rad/(N m)")
+    for parameters, panels in (((*moments, compliance), 1), (moments, 3)):
+        found = replace(FOUND, changes=(replace(CHANGE, effect="joint_compliance", parameters=parameters),))
+        assert len(history_figure(found).axes) == panels
+        assert len(history_table(found)) == 3 * len(parameters), "the table keeps them"

@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from armscope.comparison import Change, Comparison, Valued
+from armscope.comparison.result import moments_of
 from armscope.core.inputs import spelt_out
 from armscope.core.numerals import shown_unit
 from armscope.verdict.effects import INTERVAL
@@ -30,6 +31,19 @@ def told_numbers(found: Comparison) -> list[tuple[Change, Valued]]:
     return [(each, number) for each in found.changes for number in each.parameters if not number.unknown]
 
 
+def drawn_numbers(found: Comparison) -> list[tuple[Change, Valued]]:
+    """Those of them that have a panel: none of the products with mass moments that stand beside a drive's compliance.
+
+    Of each product hardly anything is known, and the card tells them as one.
+    """
+    return [(each, number) for each in found.changes for number in _by_themselves(each)]
+
+
+def _by_themselves(change: Change) -> list[Valued]:
+    told, moments = [number for number in change.parameters if not number.unknown], moments_of(change)
+    return [number for number in told if number not in moments] or told
+
+
 def history_table(found: Comparison) -> pd.DataFrame:
     """One row per recording and number that is told of every cause that changed."""
     rows = [
@@ -44,7 +58,7 @@ def history_table(found: Comparison) -> pd.DataFrame:
 
 def history_figure(found: Comparison) -> Figure:
     """A panel per number: how far it is from the first recording, with a 95 % interval; those that differ filled."""
-    numbers = told_numbers(found)[:MOST_PANELS]
+    numbers = drawn_numbers(found)[:MOST_PANELS]
     named = [textwrap.fill(number.name.replace("_", " "), OF_A_NUMBER) for _, number in numbers]
     most = max(name.count("\n") for name in named) + 3
     size = (7.0, 1.6 + max(1.4, 0.3 + LINE_INCHES * most) * len(numbers))
