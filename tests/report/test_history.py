@@ -6,6 +6,7 @@ from dataclasses import replace
 from armscope.comparison.result import Change, Comparison
 from armscope.comparison.valued import Valued
 from armscope.report.figures.history import LETTERS, LONGEST, history_figure, history_table
+from armscope.report.pages.changes import write_changes
 
 SINCE = (0.0, 3e-4, 3e-4), (0.0, 1e-5, 1e-5)
 NUMBER = Valued("offset", "rad", (2e-3, 2.3e-3, 2.3e-3), (8e-3,) * 3, *SINCE, 3e-4, (2e-4, 4e-4))
@@ -52,7 +53,7 @@ def test_names_of_many_numbers_do_not_stand_in_each_other():
     assert min(box.x0 for box in boxes) >= 0
 
 
-def test_products_with_mass_moments_have_no_panel_beside_the_compliance_that_they_are_of():
+def test_products_with_mass_moments_have_no_panel_beside_the_compliance_that_they_are_of(tmp_path):
     """Each of them is known to thousands of its unit, and was drawn as what differs."""
     moments = tuple(replace(NUMBER, name=f"compliance_times_moment_{n}", unit="rad/(m/s^2)") for n in (1, 2, 3))
     compliance = replace(NUMBER, name="compliance", unit="rad/(N m)")
@@ -60,3 +61,5 @@ def test_products_with_mass_moments_have_no_panel_beside_the_compliance_that_the
         found = replace(FOUND, changes=(replace(CHANGE, effect="joint_compliance", parameters=parameters),))
         assert len(history_figure(found).axes) == panels
         assert len(history_table(found)) == 3 * len(parameters), "the table keeps them"
+        page = write_changes(found, tmp_path / str(panels)).read_text()
+        assert ("3 further numbers are in the table" in page) == (panels == 1)

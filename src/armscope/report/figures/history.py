@@ -32,11 +32,12 @@ def told_numbers(found: Comparison) -> list[tuple[Change, Valued]]:
 
 
 def drawn_numbers(found: Comparison) -> list[tuple[Change, Valued]]:
-    """Those of them that have a panel: none of the products with mass moments that stand beside a drive's compliance.
+    """Those of them that have a panel, as many as there is room for: no products with mass moments beside a compliance.
 
     Of each product hardly anything is known, and the card tells them as one.
     """
-    return [(each, number) for each in found.changes for number in _by_themselves(each)]
+    numbers = [(each, number) for each in found.changes for number in _by_themselves(each)]
+    return numbers[:MOST_PANELS]
 
 
 def _by_themselves(change: Change) -> list[Valued]:
@@ -58,7 +59,7 @@ def history_table(found: Comparison) -> pd.DataFrame:
 
 def history_figure(found: Comparison) -> Figure:
     """A panel per number: how far it is from the first recording, with a 95 % interval; those that differ filled."""
-    numbers = drawn_numbers(found)[:MOST_PANELS]
+    numbers = drawn_numbers(found)
     named = [textwrap.fill(number.name.replace("_", " "), OF_A_NUMBER) for _, number in numbers]
     most = max(name.count("\n") for name in named) + 3
     size = (7.0, 1.6 + max(1.4, 0.3 + LINE_INCHES * most) * len(numbers))

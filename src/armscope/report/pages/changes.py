@@ -21,7 +21,7 @@ from armscope.comparison.valued import wave_part
 from armscope.core.files import write_json, write_table
 from armscope.core.numerals import shown_unit
 from armscope.core.words import enumerated
-from armscope.report.figures.history import MOST_PANELS, history_figure, history_table, told_numbers
+from armscope.report.figures.history import drawn_numbers, history_figure, history_table, told_numbers
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
 from armscope.verdict.wording import capitalised, decimals_for, millimetres, places_in_words, read_parameter
@@ -101,7 +101,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         tiles=_tiles(found),
         cards=[_card(found, change) for change in found.changes],
         figure=folder / "history.svg" if numbers else None,
-        left_out=max(0, numbers - MOST_PANELS),
+        left_out=numbers - len(drawn_numbers(found)),
         history=history,
         recordings=recordings_table(found),
         shots=capitalised(f"{shots}.") if (shots := told_of_shots(found.bad_shots, MOST_SHOTS)) else "",
