@@ -75,6 +75,12 @@ class FormRules(Constants):
         "session with other faults looked like it at ten",
         unit="sessions",
     )
+    arms_per_unexplained_turn: int = constant(
+        10,
+        "on which no link or joint turns with another joint's angle, for one on which it does: the prior pays for it",
+        "judgement: nothing that a data sheet knows does so; a hose or heat from one side may",
+        unit="arms",
+    )
     numbers_per_orientation_value: int = constant(
         2, "of recorded orientations, for each value of how they err", "judgement: half of what they say is left"
     )

@@ -1,4 +1,4 @@
-"""What does not compete yet, and promises something: meshes, nests, jumps, a drift's next pause, finer directions."""
+"""What does not compete yet, and promises something: meshes, nests, jumps, a drift's next pause, finer directions, odd turns."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from armscope.diagnosis.scans.change_points import jumps
 from armscope.diagnosis.scans.context import ScanContext
 from armscope.diagnosis.scans.gear_mesh import mesh_lines
 from armscope.diagnosis.scans.loose_nests import loose_nests
+from armscope.diagnosis.scans.other_joints import turns_with_other_joints
 from armscope.diagnosis.scans.pauses import pauses
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
@@ -43,6 +44,7 @@ def scanned_candidates(context: ScanContext, search: Search, best: Hypothesis, m
     scans = (
         mesh_lines(context, given, most), loose_nests(context, loose), jumps(context, steady),
         _paused(context, search, best), finer,
+        turns_with_other_joints(context, given),
     )  # fmt: skip
     for found in scans:
         for placed in found:
