@@ -46,11 +46,13 @@ def said(
     seed: int,
     shifted: Callable[[Array, Array], None] = still,
     skew: tuple[int, float] = (1, 0.0),
+    bow: tuple[int, int, float] | None = None,
     **context: Array,
 ) -> Diagnosis:
     """What is said of an arm of ordinary tolerances whose angles or points, by row, were moved in some way.
 
-    Behind D-H row ``skew[0]`` all else is turned about y by ``skew[1]``, rad.
+    Behind D-H row ``skew[0]`` all else is turned about y by ``skew[1]``, rad; with ``bow`` = (row, joint, rad), by that
+    many rad times the sine of the joint's angle, too.
     """
     rng = np.random.default_rng(seed)
     angles = rng.uniform(-2, 2, (ROWS, len(rows)))
@@ -58,7 +60,7 @@ def said(
     moved(true, np.arange(ROWS))
     errors = np.hstack([TOLERANCE * rng.normal(size=(len(rows), 3)), np.zeros((len(rows), 1))])
     errors[skew[0] - 1, 3] = skew[1]
-    points = reached(rows, errors, true) + NOISE_M * rng.normal(size=(ROWS, 3))
+    points = _bowed(rows, errors, true, bow) + NOISE_M * rng.normal(size=(ROWS, 3))
     shifted(points, np.arange(ROWS))
     table = Recordings(
         angles,
@@ -71,3 +73,18 @@ def said(
     joints = [{"a_mm": 1e3 * a, "alpha_deg": alpha, "d_mm": 1e3 * d, "theta_offset_deg": 0} for a, alpha, d in rows]
     dh = {"convention": "standard", "joints": joints}
     return diagnose(build_arm(RobotDescription.model_validate({"name": "arm", "dh": dh})), table, QUICK)
+
+
+def _bowed(
+    rows: list[tuple[float, float, float]], errors: Array, angles: Array, bow: tuple[int, int, float] | None
+) -> Array:
+    """`reached`, with a row that turns about y with the angle of a joint: each row of the table has its own arm."""
+    if bow is None:
+        return reached(rows, errors, angles)
+    row, joint, size = bow
+    points = np.empty((len(angles), 3))
+    for n, at in enumerate(angles):
+        own = errors.copy()
+        own[row - 1, 3] += size * np.sin(at[joint - 1])
+        points[n] = reached(rows, own, at[None, :])[0]
+    return points

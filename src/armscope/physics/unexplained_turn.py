@@ -7,8 +7,7 @@ from dataclasses import replace
 
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
-from armscope.physics.cure import Cure
-from armscope.physics.effect import Direction, Driver, Placed, Term, motor, term
+from armscope.physics.effect import Cure, Direction, Driver, Placed, Term, motor, term
 from armscope.physics.form_constants import FORM
 from armscope.physics.freeform import UNKNOWN
 

@@ -80,5 +80,7 @@ def cure_of_family(
     if growth and everywhere and family == THERMAL:
         each_other = f" {ALSO_NAMED}" if members else ""
         return f"{SCALE_ALL} {growth} Or {BY_MODEL}.{each_other} {KEPT_WARM}"
+    if family == "unknown" and members and all(each.curve is None for each in members):
+        return members[0].cure  # nothing of these is in a table over the joint's own angle
     mend = _CURES.get(family, members[0].cure if members else "")
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

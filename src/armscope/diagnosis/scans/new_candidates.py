@@ -1,4 +1,4 @@
-"""What does not compete yet, and promises something: meshes, nests, jumps, a drift's next pause, finer directions, odd turns."""
+"""What does not compete yet, and promises something: meshes, nests, jumps, pauses, finer directions, odd turns."""
 
 from __future__ import annotations
 
