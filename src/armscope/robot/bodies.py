@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.robot.dynamics import MovingArm
+from armscope.robot.on_a_stand import OnAStand, on_a_stand
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +66,25 @@ class Bodies:
         for rows, inertial in self._loads(len(q)):
             for whole, part in zip(found, slopes(self.arm, (q[rows], dq[rows], ddq[rows]), inertial), strict=True):
                 whole[rows] = part
+        return found
+
+    def on_a_stand(self, q: Array, dq: Array, ddq: Array) -> OnAStand:
+        """What a stand feels of the motion, and what the joints would feel of the stand's.
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+
+        Returns:
+            Both.
+        """
+        found = OnAStand(np.empty((len(q), 2)), *(np.empty((*q.shape, 2)) for _ in range(2)))
+        for rows, inertial in self._loads(len(q)):
+            some = on_a_stand(self.arm, (q[rows], dq[rows], ddq[rows]), inertial)
+            found.moment[rows], found.per_turning[rows], found.per_turn[rows] = (
+                some.moment, some.per_turning, some.per_turn
+            )
         return found
 
     def _loads(self, count: int) -> Iterator[tuple[NDArray[np.bool_], Array]]:
