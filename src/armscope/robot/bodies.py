@@ -79,12 +79,11 @@ class Bodies:
         Returns:
             Both.
         """
-        found = OnAStand(np.empty((len(q), 2)), *(np.empty((*q.shape, 2)) for _ in range(2)))
+        found = OnAStand(np.empty((len(q), 2)), *(np.empty((*q.shape, 2)) for _ in range(3)))
         for rows, inertial in self._loads(len(q)):
             some = on_a_stand(self.arm, (q[rows], dq[rows], ddq[rows]), inertial)
-            found.moment[rows], found.per_turning[rows], found.per_turn[rows] = (
-                some.moment, some.per_turning, some.per_turn
-            )
+            for whole, part in zip(vars(found).values(), vars(some).values(), strict=True):
+                whole[rows] = part
         return found
 
     def _loads(self, count: int) -> Iterator[tuple[NDArray[np.bool_], Array]]:

@@ -1,4 +1,4 @@
-"""An arm on a stand that may turn about level axes: the moment that this holds, and what its turning asks of joints."""
+"""An arm on a stand that may turn about axes of its plate: what this holds, and what its turning asks of joints."""
 
 from __future__ import annotations
 
@@ -8,30 +8,24 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.core.types import Array
-from armscope.robot.dynamics import MovingArm, leaning_gravity
+from armscope.robot.dynamics import MovingArm
 
 
 @dataclass(frozen=True, eq=False)
 class OnAStand:
-    """At N samples, of m joints; a and b are the two axes across gravity through the base's origin.
+    """At N samples, of m joints; about x and y of the base, which lie in its plate, through its origin.
 
     Attributes:
         moment: (N, 2) N m about both that the stand gives to hold and move the arm.
         per_turning: (N, m, 2) N m of the motors per rad/s^2 of the base about both.
+        per_speed: (N, m, 2) N m of the motors per rad/s of the base about both.
         per_turn: (N, m, 2) N m of the motors per rad by which the base leans about both.
     """
 
     moment: Array
     per_turning: Array
+    per_speed: Array
     per_turn: Array
-
-
-def level_axes(gravity: Array) -> Array:
-    """(2, 3) axes across gravity (3,), m/s^2: x and y where that points along z, or is none."""
-    if not np.any(gravity):
-        return np.eye(3)[:2]
-    size = float(np.linalg.norm(gravity))
-    return np.asarray(np.cross(-gravity / size, leaning_gravity(gravity) / size))
 
 
 def on_a_stand(arm: MovingArm, motion: tuple[Array, Array, Array], inertial: Array) -> OnAStand:
@@ -50,18 +44,18 @@ def on_a_stand(arm: MovingArm, motion: tuple[Array, Array, Array], inertial: Arr
     stored = np.column_stack([still, arm.configurations(q)])
     v, a = (np.column_stack([still, each @ arm.actuation.T]) for each in (dq, ddq))
     data, n = model.createData(), arm.n_links
-    moment, turning, lean = np.empty((len(q), 2)), np.empty((len(q), n, 2)), np.empty((len(q), n, 2))
+    moment, felt = np.empty((len(q), 2)), np.empty((3, len(q), n, 2))
     for row in range(len(q)):
-        moment[row] = pin.rnea(model, data, stored[row], v[row], a[row])[:2]
-        turning[row] = pin.crba(model, data, stored[row])[:2, 2:].T
-        lean[row] = pin.computeGeneralizedGravityDerivatives(model, data, stored[row])[2:, :2]
-    return OnAStand(moment, *(np.einsum("nke,km->nme", each, arm.actuation) for each in (turning, lean)))
+        pin.computeRNEADerivatives(model, data, stored[row], v[row], a[row])
+        moment[row] = data.tau[:2]
+        felt[0, row], felt[1, row], felt[2, row] = data.M[:2, 2:].T, data.dtau_dv[2:, :2], data.dtau_dq[2:, :2]
+    return OnAStand(moment, *np.einsum("dnke,km->dnme", felt, arm.actuation))
 
 
 def _turning(model: pin.Model, gravity: Array) -> pin.Model:
-    """The model on two joints without mass that turn about the level axes."""
+    """The model on two joints without mass that turn about the base's x and y."""
     base, at = pin.Model(), 0
-    for number, axis in enumerate(level_axes(gravity)):
+    for number, axis in enumerate(np.eye(3)[:2]):
         at = base.addJoint(at, pin.JointModelRevoluteUnaligned(axis), pin.SE3.Identity(), f"stand {number}")
     base.addFrame(pin.Frame("stand", at, 0, pin.SE3.Identity(), pin.FrameType.OP_FRAME))
     whole = pin.appendModel(base, model, base.getFrameId("stand"), pin.SE3.Identity())

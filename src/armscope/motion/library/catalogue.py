@@ -249,7 +249,7 @@ ROCKING_BASE = Cause(
     "What the arm stands on gives way under the arm's own moment, and rings.",
     "Put an accelerometer on the base and stop the arm short: it rings at the frequency that is told.",
     "Stiffen the stand or its anchors, or move more smoothly.",
-    labels={"about_x": "turn about the first level axis", "about_y": "turn about the second one"}
+    labels={"about_x": "turn about x of the base", "about_y": "turn about y"}
     | {"about_both": "turn about each, by the moment about the other"},
     clause=clauses_of_stands.rocking_clause,
 )

@@ -191,7 +191,7 @@ class Stand:
 
     Attributes:
         hz, damping: of its ringing; damping as a share of the critical one.
-        held: N m about its level axes in the mean, by which it was levelled.
+        held: N m about x and y of the base in the mean, by which it was levelled.
         tried: how many frequencies were.
     """
 
