@@ -39,4 +39,4 @@ def test_a_stand_competes_only_where_one_was_seen_to_ring() -> None:
     with_stand = replace(seen, stand=Stand(7.0, 0.05, (1.0, 2.0), 30))
     (placed,) = [each for each in place_causes(with_stand) if each.cause.name == "rocking_base"]
     assert placed.location == "base"
-    assert dict((name, value) for name, _, value in placed.scanned) == {"damping": 0.05, "frequency": 7.0}
+    assert {name: value for name, _, value in placed.scanned} == {"damping": 0.05, "frequency": 7.0}

@@ -60,8 +60,18 @@ def _finest(tried: _Tried, hz: float) -> tuple[float, float]:
     def lost(at: Array) -> float:
         return -tried.explained(*map(float, np.exp(np.clip(at, low, high))))
 
-    options = {"initial_simplex": start + steps, "xatol": ROCKING.settled, "fatol": np.inf, "maxfev": ROCKING.steps}
-    damping, at = map(float, np.exp(np.clip(minimize(lost, start, method="Nelder-Mead", options=options).x, low, high)))
+    found = minimize(
+        lost,
+        start,
+        method="Nelder-Mead",
+        options={
+            "initial_simplex": start + steps,
+            "xatol": ROCKING.settled,
+            "fatol": np.inf,
+            "maxfev": ROCKING.steps,
+        },
+    )
+    damping, at = map(float, np.exp(np.clip(found.x, low, high)))
     return damping, at
 
 

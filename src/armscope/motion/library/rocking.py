@@ -1,8 +1,9 @@
 """A base whose stand gives way under the arm's own moment, and rings.
 
-With the base turned by a small phi about x and y, phi'' + 2 d w phi' + w^2 phi = -w^2 C M: C is how far it turns
-per moment at rest, M the moment that the stand must hold, less what it holds in the mean, by which it was levelled. The
-joints feel the base's acceleration, its speed beside their own, and that gravity leans in its axes. The arm's inertia counts as the stand's own: in its mean pose.
+With the base turned by a small phi about x and y, phi'' + 2 d w phi' + w^2 phi = -w^2 C M: C is how far it turns per
+moment at rest, M the moment that the stand must hold, less what it holds in the mean, by which it was levelled. The
+joints feel the base's acceleration, its speed beside their own, and that gravity leans in its axes. The arm's inertia
+counts as the stand's own: in its mean pose.
 """
 
 from __future__ import annotations
@@ -66,9 +67,9 @@ def swung(pushed: Array, period: float, swing: tuple[float, float]) -> tuple[Arr
     from scipy.signal import cont2discrete, lfilter, lfilter_zi  # take long to import: most commands need none
 
     damping, omega = swing[0], 2 * np.pi * swing[1]
-    below, found = [1.0, 2 * damping * omega, omega**2], []
+    below, found = np.array([1.0, 2 * damping * omega, omega**2]), []
     for above in ([omega**2], [omega**2, 0.0], [omega**2, 0.0, 0.0]):
-        b, a, _ = cont2discrete((above, below), period, method="foh")
+        b, a, _ = cont2discrete((np.array(above), below), period, method="foh")
         b = np.ravel(b)
         found.append(lfilter(b, a, pushed, axis=0, zi=np.outer(lfilter_zi(b, a), pushed[0]))[0])
     return found[0], found[1], found[2]

@@ -18,7 +18,9 @@ class RockingRules(Constants):
         30.0, "at which a stand swings", "judgement: what is bolted to a floor swings faster", unit="Hz"
     )
     step: float = constant(
-        0.08, "of a frequency, to the next that is tried", "derived: the half width of a line of the damping tried first"
+        0.08,
+        "of a frequency, to the next that is tried",
+        "derived: the half width of a line of the damping tried first",
     )
     damping: float = constant(
         0.05, "of the critical one, that is tried first", "convention: of bolted steel, 0.02 to 0.07 (Bachmann 1995)"
