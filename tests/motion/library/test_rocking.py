@@ -1,19 +1,12 @@
-"""A base that rocks: its oscillator beside an integrator of another kind, and its place in the library."""
+"""A base that rocks: its oscillator beside an integrator of another kind."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from armscope.motion.library.causes import Stand
-from armscope.motion.library.placing import place_causes
-from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.library.rocking import swung
-from armscope.motion.samples.timing import stretches
-from tests.motion.moving import moved, robot
 
 
 def test_a_push_makes_it_swing_as_its_equation_says() -> None:
@@ -31,12 +24,3 @@ def test_a_push_makes_it_swing_as_its_equation_says() -> None:
     assert speed[:, 0] == pytest.approx(found[1], abs=1e-5)
     assert turning[:, 0] == pytest.approx([slope(t, s)[1] for t, s in zip(time, found.T, strict=True)], abs=1e-3)
     assert turned[:, 1] == pytest.approx(-2 * turned[:, 0])
-
-
-def test_a_stand_competes_only_where_one_was_seen_to_ring() -> None:
-    seen = seen_in(robot(), list(stretches(moved(robot(), 1))), 0.02)
-    assert not [each for each in place_causes(seen) if each.cause.name == "rocking_base"]
-    with_stand = replace(seen, stand=Stand(7.0, 0.05, (1.0, 2.0), 30))
-    (placed,) = [each for each in place_causes(with_stand) if each.cause.name == "rocking_base"]
-    assert placed.location == "base"
-    assert {name: value for name, _, value in placed.scanned} == {"damping": 0.05, "frequency": 7.0}
