@@ -13,9 +13,10 @@ from armscope.core.types import Progress, unheard
 from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.friction_turns import how_friction_turns
+from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
 from armscope.motion.fitting.gains import torque_of
 from armscope.motion.fitting.pauses import pauses_in_words
+from armscope.motion.fitting.ringing import ringing
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_of, select_causes
@@ -163,8 +164,9 @@ def diagnose_motion(
     motions, told = mended(motions)
     train, test = _parted(arm, motions, settings.held_out)
     how, first = chosen_cutoff(arm, train, settings.cutoff)
-    turning = how_friction_turns(arm, train, how)
-    seen = seen_in(arm, train, LIBRARY.still_rad)
+    plain = plain_rows(arm, train, how)
+    turning = how_friction_turns(plain, how)
+    seen = replace(seen_in(arm, train, LIBRARY.still_rad), stand=ringing(plain, how))
     seen = replace(seen, waves=first.waves, motion_hz=how.motion_hz, width_of_sides=turning.wide(arm))
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides, turning.order)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array
 from armscope.robot.dynamics import MovingArm
+from armscope.robot.on_a_stand import OnAStand, on_a_stand
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +65,24 @@ class Bodies:
         found = np.empty((len(q), m, m)), np.empty((len(q), m, m)), np.empty((len(q), m, m))
         for rows, inertial in self._loads(len(q)):
             for whole, part in zip(found, slopes(self.arm, (q[rows], dq[rows], ddq[rows]), inertial), strict=True):
+                whole[rows] = part
+        return found
+
+    def on_a_stand(self, q: Array, dq: Array, ddq: Array) -> OnAStand:
+        """What a stand feels of the motion, and what the joints would feel of the stand's.
+
+        Args:
+            q: (N, m) motor positions.
+            dq: (N, m) their velocities.
+            ddq: (N, m) their accelerations.
+
+        Returns:
+            Both.
+        """
+        found = OnAStand(np.empty((len(q), 2)), *(np.empty((*q.shape, 2)) for _ in range(3)))
+        for rows, inertial in self._loads(len(q)):
+            some = on_a_stand(self.arm, (q[rows], dq[rows], ddq[rows]), inertial)
+            for whole, part in zip(vars(found).values(), vars(some).values(), strict=True):
                 whole[rows] = part
         return found
 

@@ -12,7 +12,7 @@ from scipy.signal import butter, lfilter
 
 from armscope.core.types import Array
 from armscope.motion.fitting.cutoff import chosen_cutoff
-from armscope.motion.fitting.friction_turns import how_friction_turns
+from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
 from armscope.motion.library.dry_friction import ChangeOfSides
 from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.file import load_motion_model, save_motion_model
@@ -48,7 +48,8 @@ def bending(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
 
 def turning(motions: Motions) -> ChangeOfSides:
     arm, every = robot(), list(stretches(motions))
-    return how_friction_turns(arm, every, chosen_cutoff(arm, every, None)[0])
+    how = chosen_cutoff(arm, every, None)[0]
+    return how_friction_turns(plain_rows(arm, every, how), how)
 
 
 def widths(plant: Plant | None) -> Array | None:

@@ -41,8 +41,8 @@ SIDES = [DRY, BLUNTER, ROUNDER, LATER]
 """Numbers of dry friction, and of how and when it changes sides, among a joint's own columns."""
 
 
-def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> ChangeOfSides:
-    """Within which speed, how much later than it, and behind which low-pass each joint's dry friction changes sides.
+def plain_rows(arm: MovingArm, stretches: Sequence[Stretch], how: Preparation) -> MotionRows:
+    """Rows of as much of a motion as shows how friction turns, without a cause.
 
     Args:
         arm: the arm.
@@ -50,13 +50,26 @@ def how_friction_turns(arm: MovingArm, stretches: Sequence[Stretch], how: Prepar
         how: filters and decimation.
 
     Returns:
-        It; how much later is a first guess.
+        The rows.
     """
     layout = TorqueLayout(arm, (), False)
     seconds = np.cumsum([len(stretch) / stretch.rate for stretch in stretches])
     enough = 1 + int(np.searchsorted(seconds, LIBRARY.turns_in_s))
-    rows = build_rows(layout, stretches[:enough], how, stated_model(arm))
-    modelled = rows.nominal + rows.modelled(fitted_together(rows, np.arange(layout.width)))
+    return build_rows(layout, stretches[:enough], how, stated_model(arm))
+
+
+def how_friction_turns(rows: MotionRows, how: Preparation) -> ChangeOfSides:
+    """Within which speed, how much later than it, and behind which low-pass each joint's dry friction changes sides.
+
+    Args:
+        rows: `plain_rows`.
+        how: filters and decimation.
+
+    Returns:
+        It; how much later is a first guess.
+    """
+    arm = rows.layout.arm
+    modelled = rows.nominal + rows.modelled(fitted_together(rows, np.arange(rows.layout.width)))
     joints = [_Joint(rows, how, j) for j in range(arm.n_motors)]
     shifts = [joint.shifted_later() for joint in joints]
     late, order = _one_filter([(joint, cost) for joint, (cost, _) in zip(joints, shifts, strict=True) if joint.is_told])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.motion.library import clauses, remedies, remedies_of_curves, remedies_of_laws
+from armscope.motion.library import clauses, clauses_of_stands, remedies, remedies_of_curves, remedies_of_laws
 from armscope.motion.library.causes import Cause
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.clauses_of_gains import gain_clause
@@ -243,6 +243,16 @@ GRAVITY = Cause(
     clause=clauses.tilt_clause,
     remedy=remedies.gravity_vector,
 )
+ROCKING_BASE = Cause(
+    "rocking_base",
+    SPRINGS,
+    "What the arm stands on gives way under the arm's own moment, and rings.",
+    "Put an accelerometer on the base and stop the arm short: it rings at the frequency that is told.",
+    "Stiffen the stand or its anchors, or move more smoothly.",
+    labels={"about_x": "turn about x of the base", "about_y": "turn about y"}
+    | {"about_both": "turn about each, by the moment about the other"},
+    clause=clauses_of_stands.rocking_clause,
+)
 COMPLIANCE = Cause(
     "joint_compliance",
     SPRINGS,
@@ -272,7 +282,7 @@ CAUSES = (
     COULOMB, VISCOUS, ROTOR, OFFSET, ASYMMETRY, STRIBECK, LOAD_FRICTION, VISCOUS_CURVE, TEMPERATURE_FRICTION,
     COUPLED_FRICTION, COUPLED_INERTIA, GAIN,
     DELAY, COMPLIANCE, BALANCER, RIPPLE, CABLE, LINK_MASS, LINK_CENTRE, LINK_INERTIA, PAYLOAD, BODY,
-    GRAVITY, *CHANGES, CURVE,
+    GRAVITY, ROCKING_BASE, *CHANGES, CURVE,
 )  # fmt: skip
 
 

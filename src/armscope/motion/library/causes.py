@@ -185,6 +185,22 @@ class PlacedCause:
         return f"{self.cause.name.replace('_', ' ')} at {self.location}"
 
 
+@dataclass(frozen=True)
+class Stand:
+    """What an arm stands on that rings.
+
+    Attributes:
+        hz, damping: of its ringing; damping as a share of the critical one.
+        held: N m about x and y of the base in the mean, by which it was levelled.
+        tried: how many frequencies were.
+    """
+
+    hz: float
+    damping: float
+    held: tuple[float, float]
+    tried: int
+
+
 @dataclass(frozen=True, eq=False)
 class Seen:
     """What the table lets a library know: ranges of what causes follow.
@@ -203,6 +219,7 @@ class Seen:
         motion_hz: above which nothing of the motion is seen for noise.
         regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
         waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
+        stand: that rings; None where none does.
         both_sides: (m,) whether each joint's link was recorded beside its motor; None where none was.
         width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
     """
@@ -221,6 +238,7 @@ class Seen:
     regressor: Array
     motion_hz: float = CUTOFF.widest_hz
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
+    stand: Stand | None = None
     both_sides: NDArray[np.bool_] | None = None
     width_of_sides: Array | None = None
 

@@ -19,6 +19,7 @@ from armscope.motion.library.for_a_while import load_for_a_while, offset_for_a_w
 from armscope.motion.library.linkage import spring_between_links
 from armscope.motion.library.power_law import nearest_ordinary, power_of_speed
 from armscope.motion.library.read_late import delayed
+from armscope.motion.library.rocking import rocking
 from armscope.motion.library.sides import side
 from armscope.motion.library.warmth import RUNNING, warm, warmth, while_running
 from armscope.motion.library.waves import wave
@@ -279,6 +280,7 @@ LAWS: dict[str, Callable[..., Array]] = {
     "rubbing of two": _rubbing,
     "inertia of two": _inert,
     "leaning gravity": _lean,
+    "rocking base": rocking,
     "load for a while": load_for_a_while,
     "tool load for a while": tool_load_for_a_while,
     "offset for a while": offset_for_a_while,

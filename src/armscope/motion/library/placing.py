@@ -20,6 +20,7 @@ from armscope.motion.library.linkage_constants import LINKAGE
 from armscope.motion.library.masses import place_masses
 from armscope.motion.library.powers import with_power
 from armscope.motion.library.sides import coulomb_width, sharp_width
+from armscope.motion.library.stands import place_stand
 from armscope.motion.library.warmth import RUNNING
 from armscope.robot.dynamics import MovingArm
 
@@ -32,7 +33,7 @@ def place_causes(seen: Seen) -> list[PlacedCause]:
     placed += _one_clock(moving)
     inertias = _torque_of_inertias(seen.arm)
     placed += [cause for one, other in itertools.pairwise(moving) for cause in _coupled(seen, one, other, inertias)]
-    return [*placed, *place_masses(seen)]
+    return [*placed, *place_masses(seen), *place_stand(seen)]
 
 
 def _background(seen: Seen, j: int) -> Iterator[PlacedCause]:

@@ -215,7 +215,8 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
     """
     best, gains = selected.best, held_out_gains(selected)
     agree = {number: agreement(selected, number).consistent for number in best.candidates}
-    yield from (number for number in best.candidates if agree[number] is False)
+    stands = {n for n in best.candidates if selected.rows.layout.placed[n].cause is catalogue.ROCKING_BASE}
+    yield from (number for number in best.candidates if agree[number] is False and number not in stands)
     masses = {n for n in best.candidates if is_of_masses(selected.rows.layout.placed[n])}
     spared = {n for n in best.candidates if (agree[n] and n in masses) or _untold(selected, n, agree[n])}
     useless = [n for n in best.candidates if gains[n] <= 0 and n not in spared]
@@ -228,8 +229,13 @@ def _of_one_path(selected: SelectedCauses) -> Iterator[int]:
 
 
 def _untold(selected: SelectedCauses, number: int, agree: bool | None) -> bool:
-    """Whether a cause is what changes within one run, and no two blocks tell it: other motion never has it."""
-    return agree is None and selected.rows.layout.placed[number].cause in CHANGES
+    """Whether a cause changes within one run, and no two blocks tell it: other motion never has it; or is a stand's.
+
+    A stand rings on the paths that start and stop. Smooth ones hardly shake it, and tell of it how the base leans, from
+    where somebody levelled it; that it rings, its line has shown before it competed.
+    """
+    cause = selected.rows.layout.placed[number].cause
+    return cause is catalogue.ROCKING_BASE or (agree is None and cause in CHANGES)
 
 
 def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
