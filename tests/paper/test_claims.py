@@ -1,6 +1,7 @@
 """Claims: exact intervals, both methods, models that are missing, and outcomes recomputed here by a shorter way."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ from scipy.stats import beta
 
 from armscope.errormodels.features import FDP_AI, FDP_CI
 from armscope.errormodels.swarm_fit import fit_swarms
-from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, summarise
+from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, judges, summarise
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import GROUPS
 from armscope.paper.claims.judges import arrival, cost_ratio
@@ -185,3 +186,20 @@ def test_arrival_is_the_first_iteration_close_to_least_squares(fits):
             slowest = max(slowest, int(np.flatnonzero(close)[0]))
     assert arrival(fit) == slowest
     assert cost_ratio(fit) == pytest.approx((1 + slowest) * 100 / 7)
+
+
+def _arriving(iterations: int, at: int) -> SimpleNamespace:
+    """A fit whose only swarm is close to least squares from an iteration on; infinite: never."""
+    history = np.where(np.arange(iterations + 1) >= at, 1.0, 2.0)[None, None, :]
+    return SimpleNamespace(history_mm=history, optimum_mm=np.array([1.0]), label="r", name="FDP(CI)")
+
+
+@pytest.mark.parametrize(
+    ("iterations", "at", "holds"),
+    [(200, 150, True), (200, 999, False), (300, 250, False), (80, 60, True), (80, 999, None)],
+)
+def test_swarms_stopped_sooner_do_not_say_that_200_iterations_fail(monkeypatch, iterations, at, holds) -> None:
+    fit = _arriving(iterations, at)
+    monkeypatch.setattr(judges, "_worst", lambda evidence, fits, number: np.array([number(each) for each in fits]))
+    judged = judges.iterations_suffice(SimpleNamespace(fits=[fit]))
+    assert (None if judged is None else bool(judged.per_robot.all())) is holds

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from armscope.core.files import write_table
+from armscope.core.inputs import InputError
 from armscope.recordings import as_recordings, read_recordings
 from tests.recordings.test_bad_input import ROWS, table, write
 
@@ -104,3 +105,16 @@ def test_angles_up_to_two_turns_are_plausible(tmp_path, name):
     value = 700 if name == "deg" else 12.5
     read = read_recordings(write(tmp_path, f"q1_{name},x_mm,y_mm,z_mm\n{value},1,2,3\n"))
     assert read.motor_angles[0, 0] > 12
+
+
+def test_a_column_that_stands_twice_in_a_data_frame_is_refused() -> None:
+    frame = pd.DataFrame({"q1_rad": [0.1, 0.2], "x_mm": [1.0, 2.0], "y_mm": [1.0, 2.0], "z_mm": [1.0, 2.0]})
+    with pytest.raises(InputError, match=r"x_mm.*twice"):
+        as_recordings(pd.concat([frame, frame[["x_mm"]]], axis=1))
+
+
+def test_runs_that_are_numbers_with_gaps_are_words_without_a_warning(recwarn) -> None:
+    frame = pd.DataFrame({"q1_rad": [0.1, 0.2], "x_mm": [1.0, 2.0], "y_mm": [1.0, 2.0], "z_mm": [1.0, 2.0]})
+    read = as_recordings(frame.assign(run=[1.0, np.nan]))
+    assert list(read.run) == ["1.0", ""]
+    assert not recwarn.list

@@ -213,3 +213,15 @@ def test_waves_of_one_gear_are_told_together_as_far_as_both_are_sure() -> None:
     unsure = replace(twice, named_as="region", title="gear eccentricity at joint 2 or gear ratio at joint 2")
     assert cause_in_words("transmission", (once, unsure)).endswith("once per turn (one more at the same place)")
     assert cause_in_words("transmission", (unsure, once)).startswith("either ")
+
+
+def test_the_share_of_a_family_stands_before_its_largest_member_which_has_only_a_part_of_it() -> None:
+    text = cause_in_words("elastic", [compliance(share=0.1)], everywhere(share=0.8, mm=1.0))
+    cause = Cause("elastic", "family", "arm", ("joint compliance at joint 2",), True, False, 0.9, 0.1, text, "")
+    whole = replace(verdicts.case(effects=(compliance(share=0.1),)).verdict, causes=(cause,))
+    assert headline(whole).startswith("All joints and links give way – 90 % of the squared error, most of all: joint 2")
+
+
+def test_a_doubt_that_asks_ends_with_its_question_mark() -> None:
+    asks = Notice("check", "Is it another robot, or is a zero far off? Compare both.")
+    assert headline(replace(verdicts.case(effects=(compliance(),)).verdict, notices=(asks,))).count("?.") == 0

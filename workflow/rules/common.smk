@@ -6,7 +6,10 @@ import shlex
 import sys
 from pathlib import Path
 
+import yaml
+
 from armscope.core.config import Config
+from armscope.core.config_sources import with_own_sources
 from armscope.core.files import write_text
 from armscope.core.inputs import InputError, validate
 from armscope.core.provenance import digest
@@ -14,8 +17,11 @@ from armscope.core.provenance import digest
 # `snakemake` may be called by its path, without the environment being activated
 shell.prefix(f"set -euo pipefail; export PATH={shlex.quote(str(Path(sys.executable).parent))}:$PATH; ")
 
+# a number that --configfile or --config sets must not stand in the report with the source of the one that it replaces
+DEFAULTS = yaml.safe_load((Path(workflow.basedir) / "config" / "config.yaml").read_text(encoding="utf-8"))
+
 try:
-    CONFIG = validate(Config, config, "configuration (config/config.yaml and what overrides it)")
+    CONFIG = validate(Config, with_own_sources(config, DEFAULTS), "configuration (config/config.yaml and what overrides it)")
 except InputError as error:
     raise WorkflowError(str(error)) from None
 

@@ -98,7 +98,8 @@ class Compensated(InWords):
         left = ""
         if reached.any():
             before, after = (rms(miss[reached]) * 1e3 for miss in (self.uncorrected, self.residual))
-            left = f"; RMS of the distance {before:.3g} mm without them, {after:.2g} mm expected with them"
+            left_over = f"{after:.2g}" if after >= 1e-3 else "below 0.001"
+            left = f"; RMS of the distance {before:.3g} mm without them, {left_over} mm expected with them"
         return (
             f"{self.arm.name}: commands for {reached.sum()} of {len(reached)} rows of a path{left}.",
             "to_table() is what `armscope compensate` writes, with the reason where a row has none.",

@@ -39,7 +39,8 @@ def arm_for(robot: Robot | None, recordings: Table) -> Robot:
         return robot_for(None, Path(recordings))
     if robot is None:
         rule = "the nominal arm must be known: a robot.yaml, a URDF or an arm"
-        raise InputError("robot", "", "nothing", rule, "The recordings come first, then the robot.")
+        cure = "Give it after the recordings; to `compare`, before which recordings alone stand, as robot=..."
+        raise InputError("robot", "", "nothing", rule, cure)
     return robot
 
 

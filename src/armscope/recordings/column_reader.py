@@ -78,7 +78,8 @@ class ColumnReader:
         """(N,) words; empty where there is no such column."""
         if column not in self.table:
             return np.full(len(self.table), "")
-        return self.table[column].fillna("").astype(str).to_numpy(dtype=str)
+        told = self.table[column].astype(object)  # text has no room in a column of numbers
+        return told.where(told.notna(), "").astype(str).to_numpy(dtype=str)
 
     def optional(self, columns: list[str], scale: float, squeeze: bool = False) -> Array | None:
         """A quantity that may be left out.

@@ -209,6 +209,9 @@ def as_recordings(
     """
     renamed = as_in_contract(table.columns)
     table = table.rename(columns=renamed) if renamed else table
+    repeated = table.columns[table.columns.duplicated()]
+    if len(repeated):
+        raise InputError(str(source), "", str(repeated[0]), "column names must differ, this one stands twice")
     reader = ColumnReader(table, source)
     angles = reader.motor_angles(n_motors)
     positions = reader.positions(measured)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from armscope.physics.backgrounds import THERMAL
 from armscope.physics.thermal import BY_MODEL, KEPT_WARM
+from armscope.physics.unexplained_turn import ELSEWHERE
 from armscope.verdict.effects import FoundEffect
 
 _CURES = {
@@ -80,7 +81,7 @@ def cure_of_family(
     if growth and everywhere and family == THERMAL:
         each_other = f" {ALSO_NAMED}" if members else ""
         return f"{SCALE_ALL} {growth} Or {BY_MODEL}.{each_other} {KEPT_WARM}"
-    if family == "unknown" and members and all(each.curve is None for each in members):
+    if members and all(each.nameless and each.driver.startswith(ELSEWHERE) for each in members):
         return members[0].cure  # nothing of these is in a table over the joint's own angle
     mend = _CURES.get(family, members[0].cure if members else "")
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

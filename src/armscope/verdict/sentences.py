@@ -39,6 +39,7 @@ from armscope.verdict.wording import (
 
 _OTHERS = "all others a little"
 _WORST = ", most at "
+_MOST_OF_ALL = ", most of all: "
 
 
 def headline(verdict: Diagnosis) -> str:
@@ -50,7 +51,10 @@ def headline(verdict: Diagnosis) -> str:
         return f"{other} All that follows only describes the difference between the two."
     doubt = unusable(verdict)
     if doubt:
-        return f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
+        told = f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
+        return told.replace("?.", "?")
+            "?.", "?"
+        )
     if verdict.answer == "nothing missing":
         rounded = any(notice.kind == "rounded angles" for notice in verdict.notices)
         digits = " (some of it from rounded angles: record more digits)" if rounded else ""
@@ -61,17 +65,19 @@ def headline(verdict: Diagnosis) -> str:
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
-    clauses = [f"{c.text} – {_share_of_error(c.share, first=c is told[0])}" for c in told]
+    clauses = [_with_share(c, first=c is told[0]) for c in told]
     first = max(1, sum(c.share > WORDS.told_first for c in told))
     rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
 
 
-def _share_of_error(share: float, first: bool) -> str:
-    """A cause's share in a headline; where others cancel a part of it, that, as no part is more than the whole."""
-    if share > WORDS.more_than_all:
-        return "more than the whole squared error, as others cancel a part of it"
-    return f"{percent(share)}{' of the squared error' * first}"
+def _with_share(cause: Cause, first: bool) -> str:
+    """A cause and its share; the share of a whole family stands before its largest member, which has only a part."""
+    family, worst, member = cause.text.partition(_MOST_OF_ALL)
+    share = f"{percent(cause.share)}{' of the squared error' * first}"
+    if cause.share > WORDS.more_than_all:
+        share = "more than the whole squared error, as others cancel a part of it"
+    return f"{family} – {share}{worst}{member}"
 
 
 def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
@@ -108,7 +114,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     more = _goes_on(told[0], members)
     beside = also_out(family, told[0], [effect for effect in members if effect not in more])
     if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
-        return _with_others(f"{IN_ALL[family]}, most of all: {phrase(told[0])}", beside)
+        return _with_others(f"{IN_ALL[family]}{_MOST_OF_ALL}{phrase(told[0])}", beside)
     beside += [BESIDE.get(family, _OTHERS)] if small else []
     return _with_others(" and ".join([phrase(told[0]), *map(_how, more)]), beside)
 
