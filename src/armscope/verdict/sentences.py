@@ -53,8 +53,6 @@ def headline(verdict: Diagnosis) -> str:
     if doubt:
         told = f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
         return told.replace("?.", "?")
-            "?.", "?"
-        )
     if verdict.answer == "nothing missing":
         rounded = any(notice.kind == "rounded angles" for notice in verdict.notices)
         digits = " (some of it from rounded angles: record more digits)" if rounded else ""
