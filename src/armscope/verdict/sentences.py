@@ -51,8 +51,8 @@ def headline(verdict: Diagnosis) -> str:
         return f"{other} All that follows only describes the difference between the two."
     doubt = unusable(verdict)
     if doubt:
-        told = f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
-        return told.replace("?.", "?")
+        warning = f"These recordings cannot be relied on; do not act on anything below: {uncapitalised(doubt)}."
+        return warning.replace("?.", "?")
     if verdict.answer == "nothing missing":
         rounded = any(notice.kind == "rounded angles" for notice in verdict.notices)
         digits = " (some of it from rounded angles: record more digits)" if rounded else ""
