@@ -11,6 +11,7 @@ import pandas as pd
 from armscope.core.files import read_json, write_json, write_table
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
+from armscope.core.types import Array
 from armscope.poses.body_words import body_notes
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
@@ -42,13 +43,15 @@ def write_excitation(path: Path, found: Excitation, rate: float) -> None:
         found: the motion.
         rate: samples per second.
     """
-    write_table(path, trajectory_table(found, rate), digits=9)
+    table = trajectory_table(found, rate)
+    write_table(path, table, digits=9)
     if not is_stream(path):
-        write_json(path.with_suffix(".json"), _content(found))
+        write_json(path.with_suffix(".json"), _content(found, table))
 
 
-def _content(found: Excitation) -> dict[str, Any]:
+def _content(found: Excitation, table: pd.DataFrame) -> dict[str, Any]:
     limits, path = found.limits, found.path
+    _, speed, acceleration = path.over_period()
     return {
         "robot": found.arm.name,
         "separates": [_words(pair) for pair in found.pairs] or "everything: all base parameters",
@@ -62,9 +65,11 @@ def _content(found: Excitation) -> dict[str, Any]:
         "period_s": path.period,
         "harmonics": path.harmonics,
         "largest": {
-            "speed_share": (np.abs(path.over_period()[1]).max(axis=0) / limits.path.speed).round(4),
-            "acceleration_share": (np.abs(path.over_period()[2]).max(axis=0) / limits.path.acceleration).round(4),
-            "torque_nm": found.torque.round(3),
+            "speed_share": (_largest(table, "dq", np.abs(speed).max(axis=0)) / limits.path.speed).round(4),
+            "acceleration_share": (
+                _largest(table, "ddq", np.abs(acceleration).max(axis=0)) / limits.path.acceleration
+            ).round(4),
+            "torque_nm": _largest(table, "tau", found.torque).round(3),
             "torque_limit_nm": limits.torque,
         },
         "assumed": motion_notes(found),
@@ -72,6 +77,14 @@ def _content(found: Excitation) -> dict[str, Any]:
         "motions_refused": found.refused,
         "fourier": {"centre_rad": path.centre, "sine_rad": path.sine, "cosine_rad": path.cosine},
     }
+
+
+def _largest(table: pd.DataFrame, quantity: str, planned: Array) -> Array:
+    """(m,) largest of each motor in the table that is played, which is finer than what was planned on, or on that."""
+    played = [
+        np.abs(table.filter(regex=rf"^{quantity}{motor}_").to_numpy()).max() for motor in range(1, len(planned) + 1)
+    ]
+    return np.asarray(np.maximum(played, planned))
 
 
 def _score(score: MotionScore) -> dict[str, Any]:
