@@ -58,9 +58,9 @@ def said(
     angles = rng.uniform(-2, 2, (ROWS, len(rows)))
     true = angles.copy()
     moved(true, np.arange(ROWS))
-    errors = np.hstack([TOLERANCE * rng.normal(size=(len(rows), 3)), np.zeros((len(rows), 1))])
+    errors = tolerances(rows, rng)
     errors[skew[0] - 1, 3] = skew[1]
-    points = _bowed(rows, errors, true, bow) + NOISE_M * rng.normal(size=(ROWS, 3))
+    points = bowed(rows, errors, true, bow) + NOISE_M * rng.normal(size=(ROWS, 3))
     shifted(points, np.arange(ROWS))
     table = Recordings(
         angles,
@@ -75,7 +75,12 @@ def said(
     return diagnose(build_arm(RobotDescription.model_validate({"name": "arm", "dh": dh})), table, QUICK)
 
 
-def _bowed(
+def tolerances(rows: list[tuple[float, float, float]], rng: np.random.Generator) -> Array:
+    """(n, 4) errors of an arm of ordinary tolerances."""
+    return np.hstack([TOLERANCE * rng.normal(size=(len(rows), 3)), np.zeros((len(rows), 1))])
+
+
+def bowed(
     rows: list[tuple[float, float, float]], errors: Array, angles: Array, bow: tuple[int, int, float] | None
 ) -> Array:
     """`reached`, with a row that turns about y with the angle of a joint: each row of the table has its own arm."""

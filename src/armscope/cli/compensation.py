@@ -11,6 +11,7 @@ import typer
 from armscope.cli.commands import Commands, NominalArm, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
+from armscope.core.numerals import or_less
 
 if TYPE_CHECKING:
     import numpy as np
@@ -219,16 +220,16 @@ def _tell(result: Compensated) -> None:
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
         print(
-            f"{reached.sum()} of {count} rows: predicted miss {_or_less(missed, 4)} mm RMS of the distance; corrected, "
-            f"the model expects {_or_less(left)} mm"
+            f"{reached.sum()} of {count} rows: predicted miss {or_less(missed, 4)} mm RMS of the distance; corrected, "
+            f"the model expects {or_less(left)} mm"
         )
         if result.pose:
             beside = " beside one constant turn on the flange, which it does not know" if result.turn_open else ""
             turns = (result.uncorrected_turn, result.residual_turn)
             turned, left = (np.sqrt(np.mean(turn[reached] ** 2)) * 1e3 for turn in turns)
             print(
-                f"orientation: predicted error {_or_less(turned, 4)} mrad RMS; corrected, the model expects "
-                f"{_or_less(left)} mrad{beside}"
+                f"orientation: predicted error {or_less(turned, 4)} mrad RMS; corrected, the model expects "
+                f"{or_less(left)} mrad{beside}"
             )
         if outside < 0.005:
             print("all inside the identified range")
@@ -240,11 +241,6 @@ def _tell(result: Compensated) -> None:
         print(f"refused: {which} of the file: {reason}")
     if len(told) > MOST_CAUSES:
         print(f"refused for {len(told) - MOST_CAUSES} more reasons: the table says which")
-
-
-def _or_less(value: float, digits: int = 2) -> str:
-    """Some digits; what has converged is not told to the last bit."""
-    return f"{value:.{digits}g}" if value >= 1e-3 else "below 0.001"
 
 
 def _ranges(rows: NDArray[np.intp]) -> str:

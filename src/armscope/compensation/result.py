@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.path import Frame
 from armscope.core.averages import rms
 from armscope.core.inputs import InputError
+from armscope.core.numerals import or_less
 from armscope.core.told import InWords
 from armscope.core.types import Array, Indices
 from armscope.recordings.columns import angle_columns
@@ -98,8 +99,7 @@ class Compensated(InWords):
         left = ""
         if reached.any():
             before, after = (rms(miss[reached]) * 1e3 for miss in (self.uncorrected, self.residual))
-            left_over = f"{after:.2g}" if after >= 1e-3 else "below 0.001"
-            left = f"; RMS of the distance {before:.3g} mm without them, {left_over} mm expected with them"
+            left = f"; RMS of the distance {before:.3g} mm without them, {or_less(after)} mm expected with them"
         return (
             f"{self.arm.name}: commands for {reached.sum()} of {len(reached)} rows of a path{left}.",
             "to_table() is what `armscope compensate` writes, with the reason where a row has none.",

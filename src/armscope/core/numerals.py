@@ -43,6 +43,11 @@ def rounded(value: float) -> str:
     return f"{value:.{min(decimals, 6)}f}"
 
 
+def or_less(value: float, digits: int = 2) -> str:
+    """Some digits of an error in mm; what has converged is not told to the last bit."""
+    return f"{value:.{digits}g}" if value >= 1e-3 else "below 0.001"
+
+
 def size_of(value: float, unit: str, sign: bool = False) -> str:
     """A number's size in the field's unit, for a sentence.
 

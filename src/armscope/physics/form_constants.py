@@ -78,7 +78,8 @@ class FormRules(Constants):
     arms_per_unexplained_turn: int = constant(
         10,
         "on which no link or joint turns with another joint's angle, for one on which it does: the prior pays for it",
-        "judgement: nothing that a data sheet knows does so; a hose or heat from one side may",
+        "judgement: nothing that a data sheet knows does so; a hose or heat from one side may. One simulated arm was "
+        "in view",
         unit="arms",
     )
     numbers_per_orientation_value: int = constant(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Placed, Term, motor, term
 from armscope.physics.form_constants import FORM
@@ -72,12 +71,6 @@ def _wave_about(direction: Direction, j: int) -> tuple[Term, Term]:
     )
 
 
-def _said(told: Told) -> str:
-    source = told.driver.removeprefix(f"{ELSEWHERE} ")
-    what = "bows" if told.location.startswith("link") else "is turned"
-    return f"{told.location} {what} by ±{told.numbers['amplitude']} as {source} turns, for a reason that is not known"
-
-
 UNEXPLAINED_TURN = replace(
     UNKNOWN,
     physics="It turns a little with the angle of another joint, and neither gravity nor any other law of the library "
@@ -92,7 +85,5 @@ UNEXPLAINED_TURN = replace(
         instruction="Find what pulls, heats or is loose here as the other joint turns; until then compensate for it "
         "by the model (armscope compensate).",
     ),
-    clauses=(_said, "something unexplained at {location} follows the {driver}"),
-    atlas="",
 )
-"""`unknown` at a place that turns with another joint's angle."""
+"""`unknown` at a place that turns with another joint's angle; what a headline says of it is what it says of any."""

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.physics.model import predict
 from armscope.physics.unexplained_turn import ELSEWHERE
+from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Diagnosis
 
-from ..numpy_arms import NOISE_M, UR5E, said, still
+from ..numpy_arms import NOISE_M, ROWS, UR5E, bowed, said, still, tolerances
 
 SIZE = 6e-4
 Moved = Callable[[Array, Array], None]
@@ -34,6 +36,20 @@ def test_a_link_that_bows_with_a_joint_before_it_is_told_with_its_size(
     assert found.effect == "unknown"
     assert "Find what pulls" in found.cure
     assert verdict.noise_mm < 1.1 * 1e3 * NOISE_M, "nothing of the bow is left"
+
+
+def test_the_model_foretells_what_the_link_does_at_poses_that_were_not_measured() -> None:
+    """By the arm's own kinematics, written by hand: what commands by the model leave of it."""
+    verdict = said(UR5E, still, seed=2, bow=(2, 1, SIZE))
+    rng = np.random.default_rng(2)
+    rng.uniform(-2, 2, (ROWS, len(UR5E)))
+    errors = tolerances(UR5E, rng)
+    angles = np.random.default_rng(77).uniform(-1.8, 1.8, (300, len(UR5E)))
+    table = Recordings(angles, np.zeros((300, 3)), np.full(300, "1"), np.full(300, ""), np.arange(300).astype(str))
+    true = bowed(UR5E, errors, angles, (2, 1, SIZE))
+    missed = np.sqrt(np.mean((predict(verdict.model, table) - true) ** 2))
+    straight = np.sqrt(np.mean((bowed(UR5E, errors, angles, None) - true) ** 2))
+    assert missed < min(NOISE_M, straight / 3), (missed, straight)
 
 
 def follows(joint: int, other: int) -> Moved:

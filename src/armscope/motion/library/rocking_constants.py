@@ -23,7 +23,7 @@ class RockingRules(Constants):
         "derived: the half width of a line of the damping tried first",
     )
     damping: float = constant(
-        0.05, "of the critical one, that is tried first", "convention: of bolted steel, 0.02 to 0.07 (Bachmann 1995)"
+        0.05, "of the critical one, that is tried first", "judgement: a bolted steel frame loses a few hundredths"
     )
     least_damping: float = constant(0.005, "of the critical one", "judgement: welded steel without an arm on it")
     most_damping: float = constant(
