@@ -7,7 +7,7 @@ import pytest
 
 from armscope.physics.registry import EFFECTS
 from armscope.report.figures.arm import location_shares
-from armscope.report.html import unbroken
+from armscope.report.html import by_cause, unbroken
 from armscope.report.pages.diagnosis import write_report
 from armscope.report.sections.effect_cards import card
 from armscope.verdict.effects import Curve, Parameter
@@ -155,3 +155,14 @@ def test_scatter_is_no_curve_and_asks_for_what_its_card_asks_for(tmp_path: Path)
     assert "follows the nothing" not in words
     assert "No further measurement is needed" not in words
     assert "what was found at joint 4 has no known cause: record what the card there asks for" in words
+
+
+def test_a_headline_of_several_causes_has_a_line_each_and_what_is_beside_is_quiet():
+    lines = by_cause("joint 2 gives way (also joint 3) – 60 %; a <zero> is off – 20 %.")
+    assert lines == [
+        "Joint 2 gives way <i>(also joint 3)</i>\u00a0– 60\u00a0%",
+        "A &lt;zero&gt; is off\u00a0– 20\u00a0%",
+    ]
+    assert by_cause("Cannot tell: poses are few; six would settle it.") == [
+        "Cannot tell: poses are few; six would settle it."
+    ]

@@ -18,7 +18,7 @@ from armscope.core.inputs import spelt_out
 from armscope.core.numerals import rounded
 from armscope.core.outputs import readable
 from armscope.report.compiled import BesideTemplates
-from armscope.verdict.wording import plain
+from armscope.verdict.wording import capitalised, plain
 
 _TEMPLATES = jinja2.Environment(
     loader=jinja2.PackageLoader("armscope.report", "templates"),
@@ -36,7 +36,16 @@ def unbroken(text: str) -> str:
     return re.sub(r"(?<=\d) (?=[%°µa-zA-Z])| (?=–)|(?<=\bN) (?=m\b)", "\u00a0", text)
 
 
+def by_cause(headline: str) -> list[Markup]:
+    """A headline cause by cause, a line each, what is beside each in brackets quiet; one line if it is one sentence."""
+    clauses = headline.split("; ")
+    several = len(clauses) > 1 and all(" – " in clause for clause in clauses)
+    lines = [capitalised(clause.rstrip(".")) for clause in clauses] if several else [headline]
+    return [Markup(re.sub(r"\([^()]*\)", r"<i>\g<0></i>", str(escape(unbroken(line))))) for line in lines]
+
+
 _TEMPLATES.filters["unbroken"] = unbroken
+_TEMPLATES.filters["by_cause"] = by_cause
 _TEMPLATES.filters["plain"] = plain
 _TEMPLATES.filters["rounded"] = rounded
 

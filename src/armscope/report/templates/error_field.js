@@ -363,13 +363,16 @@
       } };
     }
 
-    labels() {
-      const { pen } = this;
+    labels() {  // beside each joint, the nearer joints first; one that would lie on another goes above or below it
+      const { pen } = this, high = 16 * this.ratio, taken = [];
       pen.font = `${11.5 * this.ratio}px system-ui, sans-serif`; pen.textBaseline = "middle";
-      this.data.arm.discs.forEach(disc => {
-        const [x, y] = [disc.on[0] + 10 * this.ratio, disc.on[1] - 10 * this.ratio], width = pen.measureText(disc.label).width;
-        pen.fillStyle = "rgba(255,255,255,.82)"; pen.fillRect(x - 2 * this.ratio, y - 8 * this.ratio, width + 4 * this.ratio, 16 * this.ratio);
-        pen.fillStyle = CHOSEN; pen.fillText(disc.label, x, y);
+      [...this.data.arm.discs].sort((a, b) => b.on[2] - a.on[2]).forEach(disc => {
+        const width = pen.measureText(disc.label).width + 4 * this.ratio, left = disc.on[0] + 8 * this.ratio;
+        const free = top => taken.every(other => left > other.right || left + width < other.left || Math.abs(top - other.top) >= high);
+        const first = disc.on[1] - 18 * this.ratio, top = [0, -1, 1, -2, 2].map(n => first + n * high).find(free) ?? first;
+        taken.push({ left, right: left + width, top });
+        pen.fillStyle = "rgba(255,255,255,.82)"; pen.fillRect(left, top, width, high);
+        pen.fillStyle = CHOSEN; pen.fillText(disc.label, left + 2 * this.ratio, top + high / 2);
       });
     }
 
