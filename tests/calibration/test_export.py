@@ -14,9 +14,12 @@ from armscope.calibration.export import export
 from armscope.core.inputs import InputError
 from armscope.robot import chain, forward_kinematics, load_arm
 from armscope.robot.arm import build_arm
+from armscope.robot.controllers import UR_KINEMATICS
 from armscope.robot.description import RobotDescription
+from armscope.robot.library import nominal_description
 from tests.calibration.test_calibrate import ARMS, arm  # noqa: F401 - the arms in every form
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
+from tests.robot.test_controllers import tool_of
 
 assert ARMS
 
@@ -160,3 +163,17 @@ def test_the_link_at_the_tool_of_a_corrected_urdf_is_where_points_were_measured(
         np.testing.assert_allclose(
             forward_kinematics(at_link, angles), forward_kinematics(nominal, angles), atol=1e-8, err_msg=name
         )
+
+
+def test_a_calibrated_arm_of_universal_robots_comes_as_its_driver_reads_it(tmp_path):
+    rng, ur = np.random.default_rng(5), build_arm(nominal_description("ur5e"))
+    recordings = measured(planted(ur, rng), poses(rng, 80, 6), far_away(rng), {"": [0.1, 0.05, 0.1]})
+    calibration = calibrate(ur, recordings)
+    written = yaml.safe_load(next(p for p in export(calibration, tmp_path) if p.name == UR_KINEMATICS).read_text())
+    angles = poses(rng, 20, 6)
+    # the file ends at the last joint, before what a and alpha of its row and the tool add
+    last, nominal = (chain(each, angles).joint_origin[:, -1] for each in (calibration.arm, ur))
+    np.testing.assert_allclose([tool_of(written, q) for q in angles], last, atol=1e-9)
+    assert np.abs(nominal - last).max() > 1e-3
+    uncorrected = export(calibrate(ur, recordings, "nominal"), tmp_path / "nominal")
+    assert UR_KINEMATICS not in [path.name for path in uncorrected]

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from armscope.calibration.result import Calibration
-from armscope.core.files import write_text, write_yaml
+from armscope.core.files import write_text, write_yaml, yaml_text
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.robot import Arm
+from armscope.robot.controllers import UR_KINEMATICS, ur_kinematics
 from armscope.robot.urdf_writing import (
     WrittenJoint,
     add_frame,
@@ -27,15 +28,16 @@ from armscope.robot.urdf_writing import (
 )
 
 TIP, TOOL = "calibrated_flange", "calibrated_tool"
+IN_PLACE_OF_ROWS = "In place of zeros and rows in the controller, never as well: it holds both."
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:
     """Write the calibrated arm.
 
     Into ``folder``: ``robot.yaml`` (corrected D-H rows and the tool of one target), ``robot.urdf`` with
-    ``robot_urdf.yaml`` that names it, and ``frames.yaml``: base frames, tools and compliances, which an arm's
-    description has no place for. For an arm that came from a URDF, ``robot.yaml`` names the corrected URDF: its joints'
-    origins are changed, all else stays.
+    ``robot_urdf.yaml`` that names it, ``ur_kinematics.yaml`` for arms of Universal Robots, and ``frames.yaml``: base
+    frames, tools and compliances, which an arm's description has no place for. For an arm that came from a URDF,
+    ``robot.yaml`` names the corrected URDF: its joints' origins are changed, all else stays.
 
     Args:
         calibration: what to write.
@@ -70,6 +72,9 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
         write_text(folder / "robot.urdf", _fresh_urdf(calibration.arm, tool * 1e-3))
         write_yaml(folder / "robot_urdf.yaml", {"name": name, **by_urdf, "tip": TIP, **common})
         written = ["robot.yaml", "robot.urdf", "robot_urdf.yaml"]
+        if (kinematics := ur_kinematics(calibration.arm)) and calibration.state.constants.any():
+            write_text(folder / UR_KINEMATICS, f"# {IN_PLACE_OF_ROWS}\n{yaml_text(kinematics)}")
+            written.append(UR_KINEMATICS)
     write_yaml(folder / "frames.yaml", frames_content(calibration))
     return tuple(folder / name for name in [*written, "frames.yaml"])
 

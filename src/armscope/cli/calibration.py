@@ -14,7 +14,7 @@ from armscope.core.inputs import InputError
 
 app = Commands()
 
-FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "frames.yaml")
+FILES = ("robot.yaml", "robot.urdf", "robot_urdf.yaml", "ur_kinematics.yaml", "frames.yaml")
 TABLES = ("calibration.csv", "held.csv", "covariance.csv", "misses.csv")
 
 

@@ -21,6 +21,7 @@ from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.row_weights import RowNoise, RowWeights
 from armscope.physics.effect import Part, Placed, Term
 from armscope.physics.model import FittedModel
+from armscope.physics.parallel_axes import lengths_told_once
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +88,8 @@ def refit(
     Returns:
         The fitted model, its weights, noise and covariance.
     """
-    effects = [(_apart(placed, effects), size) for placed, size in effects]
+    apart = lengths_told_once(model.arm, [_apart(placed, effects) for placed, _ in effects])
+    effects = [(placed, size) for placed, (_, size) in zip(apart, effects, strict=True)]
     named = {term for placed, _ in effects for term in placed.terms}
     kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]

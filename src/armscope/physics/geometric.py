@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import Told, swings, waves_column
+from armscope.physics.clause import Number, Told, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
@@ -32,8 +32,7 @@ ROUNDING = 1e-9
 def row_terms(arm: Arm, j: int) -> dict[str, Term]:
     """Constant errors of D-H row j (1-based) but for the joint's zero: a, alpha, d, and beta where axes are parallel.
 
-    What each does is `armscope.robot.denavit_hartenberg.row_twist`. A URDF has no rows but
-    `directions_of_a_joint`.
+    What each does is `armscope.robot.denavit_hartenberg.row_twist`; a URDF has no rows but `directions_of_a_joint`.
     """
     if arm.description.dh is None:
         twists = {axis: (f"joint {j}", twist) for axis, twist in directions_of_a_joint(arm, j).items()}
@@ -93,13 +92,18 @@ _ROW = {
 
 
 def _differs(told: Told) -> str:
-    """The parameter that stands out most from its uncertainty, and the next."""
+    """Of the parameters that rows tell from zero the two that are largest beside what arms show."""
     if not told.numbers:
         return f"{told.location} differs from its drawing"
-    first = sorted(told.numbers.items(), key=lambda p: -abs(p[1].value) / (p[1].stderr or math.inf))[:2]
-    clear = [(name, p) for name, p in first if p.stderr and abs(p.value) > 3 * p.stderr] or first[:1]
-    errors = " and ".join(f"{_ROW.get(name, name)} by {number:+}" for name, number in clear)
+    surest = sorted(told.numbers.items(), key=lambda p: -abs(p[1].value) / (p[1].stderr or math.inf))
+    clear = [(name, p) for name, p in surest if p.stderr and abs(p.value) > 3 * p.stderr] or surest[:1]
+    largest = sorted(clear, key=lambda p: -abs(p[1].value) / _plausible(p[1]))[:2]
+    errors = " and ".join(f"{_ROW.get(name, name)} by {number:+}" for name, number in largest)
     return f"{told.location} differs from its drawing: {errors}"
+
+
+def _plausible(number: Number) -> float:
+    return PLAUSIBLE.length_m / MILLIMETRE if number.unit == "mm" else PLAUSIBLE.twist_rad
 
 
 LINK_GEOMETRY = Effect(

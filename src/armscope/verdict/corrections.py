@@ -114,6 +114,14 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     return pd.DataFrame(rows)
 
 
+def changes(table: pd.DataFrame) -> bool:
+    """Whether a table of `corrected_rows`, `corrected_origins` or `zero_offsets` holds any correction."""
+    if "changed" in table:
+        return bool(table["changed"].any())
+    columns = ["actual_minus_commanded_deg"] if "cause" in table else table.filter(like="correction_").columns
+    return bool(table[columns].any(axis=None))
+
+
 class CorrectedCell(NamedTuple):
     """Of the table of corrected rows: a number as stated, and as corrected, "" where it is not."""
 

@@ -79,9 +79,11 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     words = placed.effect.told_as(float(part.values[0]))
     at = fit.layout.of(placed)
     coefficients = np.zeros(len(fit.layout.terms))
-    coefficients[at] = _sized(state, chosen, part.values, fit.covariance_of(placed))
+    coefficients[at] = _sized(state, chosen, part, fit.covariance_of(placed))
     values, covariance = _with_drive_of_background(fit, part, basis.model_error.covariance)
-    covariance = covariance + basis.other_doubt.get(chosen.candidate, 0.0)
+    if (doubt := basis.other_doubt.get(chosen.candidate)) is not None:
+        its = _fitted_terms(state, chosen, part)
+        covariance = covariance + doubt[np.ix_(its, its)]
     rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
@@ -155,7 +157,7 @@ def _with_drive_of_background(fit: Refit, part: Part, covariance: Array) -> tupl
     return values, together @ covariance[np.ix_(every, every)] @ together.T
 
 
-def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covariance: Array) -> Array:
+def _sized(state: DiagnosisState, chosen: SelectedEffect, part: Part, covariance: Array) -> Array:
     """An effect's values for its size at the tool: what its rows leave open counts as its prior has it.
 
     The refit holds named values by a prior so wide that it does not pull; two of them that only show together (offsets
@@ -163,11 +165,17 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, values: Array, covaria
     """
     problem, candidate = state.problem, state.space.candidates[chosen.candidate]
     if candidate.is_curve:
-        return values  # its prior is that already
-    scale = problem.prior_scale(chosen) / problem.scale[candidate.columns]
+        return part.values  # its prior is that already
+    scale = (problem.prior_scale(chosen) / problem.scale[candidate.columns])[_fitted_terms(state, chosen, part)]
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
-    return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, values / scale)))
+    return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, part.values / scale)))
+
+
+def _fitted_terms(state: DiagnosisState, chosen: SelectedEffect, part: Part) -> list[int]:
+    """Which of its candidate's terms a part was fitted with: a length that another row holds is not among them."""
+    terms = state.space.placed[chosen.candidate].terms
+    return [terms.index(term) for term in part.placed.terms]
 
 
 def _own_size(fit: Refit, curve: Part) -> float:

@@ -20,10 +20,12 @@ from armscope.report.sections.effect_cards import title_of
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
-from armscope.verdict.controllers import ZEROS_IN_IT, ur_kinematics
+from armscope.robot.controllers import UR_KINEMATICS
+from armscope.verdict.controllers import ZEROS_IN_IT, corrected_ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
+    changes,
     corrected_origins,
     corrected_rows,
     corrected_table,
@@ -57,7 +59,7 @@ WARNINGS = (
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = f"Rows that took no part in the fit are predicted worse with this model than without it. {NOT_YET}"
 REPORT, ORDER = "report.html", "work-order.html"
-ZEROS, ROWS, ORIGINS, UR = "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv", "ur_kinematics.yaml"
+ZEROS, ROWS, ORIGINS = "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv"
 
 
 def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
@@ -97,7 +99,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
 def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
     """Zeros and corrected rows as files, and what the page tells of them."""
     verdict, zeros, rows = subject.verdict, zero_offsets(subject.verdict), corrected_rows(subject.verdict)
-    kinematics = ur_kinematics(verdict)
+    kinematics = corrected_ur_kinematics(verdict)
     named = zeros["cause"] == "named"
     steps = [subject.order.step_of(*(f"{effect} at {joint}" for effect in SETS_A_ZERO)) for joint in zeros["joint"]]
     zeros = zeros.assign(step="" if another_model(verdict) else pd.Series(steps).where(named, ""))
@@ -108,7 +110,7 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
     for name, table in corrected.items():
         write_table(folder / name, table)
     if kinematics is not None:
-        write_text(folder / UR, f"# {ZEROS_IN_IT}\n{yaml_text(kinematics)}")
+        write_text(folder / UR_KINEMATICS, f"# {ZEROS_IN_IT}\n{yaml_text(kinematics)}")
     dh, by_calibration = verdict.model.arm.description.dh, subject.order.by_calibration
     heads, cells = corrected_table(verdict)
     return {
@@ -116,11 +118,15 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
         "dh_heads": heads,
         "skewed": "β" in " ".join(heads),
         "calibrated": "" if rows is None else next((s for s in rows["step"] if s and s == by_calibration), ""),
-        "rows_change": rows is not None and bool(rows.filter(like="correction_").any(axis=None)),
+        "rows_change": rows is not None and changes(rows),
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
-        "kinematics": f"{UR}: {ZEROS_IN_IT}" if kinematics else "",
-        "tables": [ZEROS, *corrected, *([UR] if kinematics else []), *([CURVES] if _has_curves(verdict) else [])],
+        "kinematics": f"{UR_KINEMATICS}: {ZEROS_IN_IT}" if kinematics else "",
+        "tables": [
+            *(name for name, table in {ZEROS: zeros, **corrected}.items() if changes(table)),
+            *([UR_KINEMATICS] if kinematics else []),
+            *([CURVES] if _has_curves(verdict) else []),
+        ],
     }
 
 
