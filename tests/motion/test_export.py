@@ -14,8 +14,11 @@ import pytest
 import yaml
 
 from armscope.core.types import Array
-from armscope.motion.export import bodies, export_motion, joint_numbers, not_in_a_file, parameter_table
+from armscope.motion.export import corrected_urdf, export_motion, parameter_table
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
+from armscope.motion.simulated_bodies import bodies
+from armscope.robot.constants import WRITTEN
+from armscope.robot.description import Drive
 from armscope.robot.dynamics import load_moving_arm
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, path, robot
 
@@ -35,14 +38,8 @@ def folder(found: MotionDiagnosis, tmp_path_factory: pytest.TempPathFactory) -> 
     return out
 
 
-def simulated(urdf: str, joints: ET.Element | None, q: Array, dq: Array, ddq: Array) -> Array:
-    """Torque by MuJoCo's inverse dynamics, with attributes of mujoco.xml on the joints where they are given."""
-    spec = mujoco.MjSpec.from_string(urdf)
-    for joint in [] if joints is None else joints.findall("joint"):
-        named = spec.joint(str(joint.get("name")))
-        named.armature, named.frictionloss = (float(str(joint.get(name))) for name in ("armature", "frictionloss"))
-        named.damping = [float(str(joint.get("damping"))), 0.0, 0.0]
-    model = spec.compile()
+def simulated(model: mujoco.MjModel, q: Array, dq: Array, ddq: Array) -> Array:
+    """Torque by MuJoCo's inverse dynamics."""
     data, torque = mujoco.MjData(model), np.empty_like(q)
     for row in range(len(q)):
         data.qpos[:], data.qvel[:], data.qacc[:] = q[row], dq[row], ddq[row]
@@ -57,17 +54,34 @@ def test_simulated_in_mujoco_the_gap_closes(found: MotionDiagnosis, folder: Path
     data = actual.model.createData()
     rigid = np.array([pin.rnea(actual.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
     torque = rigid + COULOMB * np.sign(dq) + VISCOUS * dq + ROTOR * ddq
-    corrected = (folder / "corrected.urdf").read_text(encoding="utf-8")
-    joints = ET.fromstring((folder / "mujoco.xml").read_text(encoding="utf-8"))
     plain = replace(found.model, joints=np.zeros_like(found.model.joints), causes=(), inertial=found.arm.inertial)
     export_motion(plain, found.selected, found.sure.factor, folder / "stated")
-    stated = (folder / "stated" / "corrected.urdf").read_text(encoding="utf-8")
     moving = np.abs(dq).min(axis=1) > 0.05  # MuJoCo's dry friction is soft where a joint turns back
-    before = torque - simulated(stated, None, q, dq, ddq)
-    after = torque - simulated(corrected, joints, q, dq, ddq)
+    stated, fitted = (mujoco.MjModel.from_xml_path(str(at / "mujoco.xml")) for at in (folder / "stated", folder))
+    before, after = (torque - simulated(model, q, dq, ddq) for model in (stated, fitted))
     size = np.linalg.norm(torque[moving])
     assert np.linalg.norm(before[moving]) > 0.2 * size
     assert np.linalg.norm(after[moving]) < 0.02 * size
+
+
+def test_the_urdf_simulates_as_the_mjcf_does_but_for_rotors(folder: Path) -> None:
+    q, dq, ddq = np.random.default_rng(4).uniform(-1, 1, (3, 20, 3))
+    dq += 0.2 * np.sign(dq)  # MuJoCo's dry friction is soft near rest, and the softer the more a rotor weighs
+    whole = mujoco.MjModel.from_xml_path(str(folder / "mujoco.xml"))
+    urdf = mujoco.MjModel.from_xml_path(str(folder / "corrected.urdf"))
+    expected = simulated(whole, q, dq, ddq) - whole.dof_armature * ddq
+    np.testing.assert_allclose(simulated(urdf, q, dq, ddq), expected, atol=1e-6)
+    assert np.abs(whole.dof_armature * ddq).max() > 1e-3
+
+
+def test_limits_of_drives_are_those_stated_or_none_that_binds(found: MotionDiagnosis) -> None:
+    drives = (Drive(torque_nm=100.0, speed_deg_s=180.0), Drive(torque_nm=101.0, speed_deg_s=180.0), Drive())
+    limits = [(-100.0, 100.0)] * 3
+    description = found.arm.description.model_copy(update={"drives": drives, "joint_limits_deg": limits})
+    model = replace(found.model, arm=replace(found.arm, description=description))
+    told = [each.attrib for each in ET.fromstring(corrected_urdf(model, Path())).iter("limit")]
+    assert [float(each["effort"]) for each in told] == [100.0, 101.0, WRITTEN.effort]
+    np.testing.assert_allclose([float(each["velocity"]) for each in told], [np.pi, np.pi, WRITTEN.speed])
 
 
 def test_the_urdf_is_an_arm_with_the_fitted_masses(found: MotionDiagnosis, folder: Path) -> None:
@@ -86,23 +100,6 @@ def test_the_urdf_is_an_arm_with_the_fitted_masses(found: MotionDiagnosis, folde
     )
     (folder / "kept" / "robot.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")
     np.testing.assert_allclose(load_moving_arm(folder / "kept" / "robot.yaml").inertial, again.inertial, atol=1e-9)
-
-
-def test_what_no_simulator_takes_is_mended_and_said(found: MotionDiagnosis) -> None:
-    negative = found.model.joints.copy()
-    negative[1, 3] = -0.2
-    weightless = found.model.inertial.copy()
-    weightless[10:20] = 0
-    weightless[13] = 0.5
-    odd = replace(found.model, joints=negative, inertial=weightless)
-    numbers, notes = joint_numbers(odd)
-    assert numbers[1, 2] == 0
-    assert "joint 2: rotor inertia came out at -0.2" in notes[0]
-    made, notes = bodies(odd)
-    assert np.linalg.eigvalsh(made[1].inertia).min() > 0
-    assert made[1].mass > 0
-    assert any(note.startswith("link 2") for note in notes)
-    assert not_in_a_file(replace(odd, gains=np.array([0, 0.1, 0]))) == ["gain of joint 2 +0.1"]
 
 
 def test_the_table_holds_every_parameter_with_its_error(found: MotionDiagnosis, folder: Path) -> None:

@@ -25,6 +25,7 @@ from armscope.robot.urdf_writing import (
     set_inertial,
     turns_of_file,
     urdf_text,
+    what_drives_can,
 )
 
 TIP, TOOL = "calibrated_flange", "calibrated_tool"
@@ -135,11 +136,12 @@ def _row(row: dict[str, float]) -> dict[str, float]:
 def _fresh_urdf(arm: Arm, tool: Array) -> str:
     """The arm's chain as a URDF, with its masses as points, and a link at the tool (3,), m."""
     ends_at_motor = arm.description.actuation is None
-    joints = []
+    drives = what_drives_can(arm.description) if ends_at_motor else []
+    drives, joints = drives or [{}] * len(arm.before), []
     for joint, placement in enumerate(arm.before):
         low, high = arm.limits[joint] if ends_at_motor else (-np.inf, np.inf)
         limits = (low, high) if np.isfinite([low, high]).all() else None
-        joints.append(WrittenJoint(f"joint_{joint + 1}", placement, limits))
+        joints.append(WrittenJoint(f"joint_{joint + 1}", placement, limits, **drives[joint]))
     robot = chain_urdf(arm.name, joints, TIP, arm.tip)
     for mass, centre, link in zip(arm.masses, arm.centres, robot.findall("link")[1:-1], strict=True):
         if mass > 0:

@@ -10,23 +10,30 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import pinocchio as pin
 
 from armscope.core.files import write_table, write_text
 from armscope.core.types import Array
-from armscope.motion.constants import EXPORT
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.layout import OWN
 from armscope.motion.library.remedies_of_curves import CURVES
 from armscope.motion.model.curve_table import curve_table
 from armscope.motion.model.file import save_motion_model
 from armscope.motion.model.fitted import MotionModel
+from armscope.motion.mujoco_model import mujoco_model
 from armscope.motion.pipeline import MotionDiagnosis
+from armscope.motion.simulated_bodies import as_comment, bodies, joint_numbers, not_in_a_file
 from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
 from armscope.robot.urdf_file import root_of
-from armscope.robot.urdf_writing import WrittenJoint, chain_urdf, keep_meshes, set_inertial, urdf_text
+from armscope.robot.urdf_writing import (
+    WrittenJoint,
+    chain_urdf,
+    keep_meshes,
+    set_inertial,
+    urdf_text,
+    what_drives_can,
+)
 from armscope.verdict.files import atlas_table
 
 URDF, MUJOCO, TABLE = "corrected.urdf", "mujoco.xml", "parameters.csv"
@@ -63,49 +70,8 @@ def export_motion(model: MotionModel, selected: SelectedCauses, factor: Array, f
     """
     folder = Path(folder)
     write_text(folder / URDF, corrected_urdf(model, folder))
-    write_text(folder / MUJOCO, mujoco_joints(model))
+    write_text(folder / MUJOCO, mujoco_model(model))
     write_table(folder / TABLE, parameter_table(model, selected, factor))
-
-
-def bodies(model: MotionModel) -> tuple[list[pin.Inertia], list[str]]:
-    """Every link's mass, centre and inertia about its joint's frame, and what had to be changed for it to be a body.
-
-    A combination of parameters that the motion does not tell may come out as no body has it: then the nearest body
-    (by its pseudo-inertia's eigenvalues, Wensing, Kim & Slotine 2018) stands in for it.
-    """
-    made, notes = [], []
-    total = model.followed().inertial.reshape(-1, len(PARAMETERS))
-    for number, parameters in enumerate(total, start=1):
-        pseudo = pin.PseudoInertia.FromDynamicParameters(parameters)
-        values, vectors = np.linalg.eigh(pseudo.toMatrix())
-        least = EXPORT.least_eigenvalue * max(float(values.max()), EXPORT.lightest_kg)
-        if values.min() < least:
-            mended = (vectors * np.maximum(values, least)) @ vectors.T
-            parameters = pin.PseudoInertia.FromMatrix(mended).toDynamicParameters()
-            notes.append(f"link {number}: no body has the fitted inertia; the nearest that a body has stands here")
-        made.append(pin.Inertia.FromDynamicParameters(parameters))
-    return made, notes
-
-
-def joint_numbers(model: MotionModel) -> tuple[Array, list[str]]:
-    """(n, 3) dry friction, damping and armature of each joint, none of them negative, and what was left out.
-
-    Where motors and joints are not one to one, friction belongs to motors and has no place at a joint: zeros.
-    """
-    if not np.array_equal(model.arm.actuation, np.eye(model.arm.n_links)):
-        return np.zeros((model.arm.n_links, 3)), ["friction and rotors are those of motors, which turn several joints"]
-    numbers, notes = model.joints[:, 1:4], []
-    for joint, name in np.argwhere(numbers < 0):
-        what = ("dry friction", "viscous friction", "rotor inertia")[name]
-        notes.append(f"joint {joint + 1}: {what} came out at {numbers[joint, name]:.4g}; simulators take none below 0")
-    return np.maximum(numbers, 0.0), notes
-
-
-def not_in_a_file(model: MotionModel) -> list[str]:
-    """Causes and numbers of the model for which a URDF has no place."""
-    causes = [str(each.placed) for each in model.causes if not each.placed.cause.in_bodies or each.placed.runs]
-    gains = [f"gain of joint {j + 1} {gain:+.3g}" for j, gain in enumerate(model.gains) if gain]
-    return [*causes, *gains]
 
 
 def corrected_urdf(model: MotionModel, folder: Path) -> str:
@@ -130,23 +96,8 @@ def corrected_urdf(model: MotionModel, folder: Path) -> str:
         ET.SubElement(joints[name], "dynamics", damping=repr(float(damping)), friction=repr(float(dry)))
     left = not_in_a_file(model)
     told = [WRITTEN, *notes, *also, *([f"not in this file: {'; '.join(left)}"] if left else [])]
-    robot.insert(0, ET.Comment(_as_comment(told)))
+    robot.insert(0, ET.Comment(as_comment(told)))
     return urdf_text(robot)
-
-
-def mujoco_joints(model: MotionModel) -> str:
-    """Attributes of the joints of an MJCF: dry friction, damping and armature, N m, N m s/rad, kg m^2."""
-    numbers, notes = joint_numbers(model)
-    told = _as_comment(
-        ["armscope: attributes for the joints of these names in your model", *notes, *not_in_a_file(model)]
-    )
-    robot = ET.Element("mujoco", model=model.arm.name)
-    robot.append(ET.Comment(told))
-    for name, values in zip(model.arm.joint_names, numbers, strict=True):
-        dry, damping, armature = (repr(float(f"{value:.6g}")) for value in values)
-        ET.SubElement(robot, "joint", name=name, frictionloss=dry, damping=damping, armature=armature)
-    ET.indent(robot)
-    return ET.tostring(robot, encoding="unicode") + "\n"
 
 
 def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array) -> pd.DataFrame:
@@ -190,12 +141,12 @@ def _fresh(arm: MovingArm) -> ET.Element:
     """The chain of a D-H arm."""
     limits = arm.description.joint_limits_deg
     within = None if limits is None or len(limits) != arm.n_links else np.radians(limits)
-    joints = [
-        WrittenJoint(
-            name, arm.model.jointPlacements[n + 1].homogeneous, None if within is None else (within[n][0], within[n][1])
-        )
-        for n, name in enumerate(arm.joint_names)
-    ]
+    one_to_one = np.array_equal(arm.actuation, np.eye(arm.n_links))
+    drives = (what_drives_can(arm.description) if one_to_one else []) or [{}] * arm.n_links
+    joints = []
+    for n, name in enumerate(arm.joint_names):
+        placement, limit = arm.model.jointPlacements[n + 1].homogeneous, None if within is None else tuple(within[n])
+        joints.append(WrittenJoint(name, placement, limit, **drives[n]))
     tip = arm.model.frames[arm.model.getFrameId(TIP)]
     return chain_urdf(arm.name, joints, "flange", tip.placement.homogeneous)
 
@@ -222,7 +173,3 @@ def _hangs_on(joint: ET.Element | None, children: dict[str | None, ET.Element], 
         parent = joint.find("parent")
         joint = None if parent is None else children.get(parent.get("link"))
     return False
-
-
-def _as_comment(lines: list[str]) -> str:
-    return f" {'. '.join(lines)} ".replace("--", "- -")

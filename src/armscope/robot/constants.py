@@ -250,4 +250,21 @@ class PoseSearch(Constants):
     rows_at_a_time: int = constant(10_000, "whose frames are held", "derived: some ten megabytes", unit="rows")
 
 
-ARMS, GUESSES, PASTED, AXIS, SEARCH = BuiltArms(), UnitGuesses(), PastedText(), AxisRules(), PoseSearch()
+@dataclass(frozen=True)
+class WrittenLimits(Constants):
+    """What a URDF's joint with limits must state, where nobody has stated it: never a bound in a simulation."""
+
+    effort: float = constant(
+        1e6, "that no drive has", "derived: a thousand times what the strongest axis that is sold holds", unit="N m"
+    )
+    speed: float = constant(1e3, "that no joint reaches", "derived: 160 turns in a second", unit="rad/s")
+
+
+ARMS, GUESSES, PASTED, AXIS, SEARCH, WRITTEN = (
+    BuiltArms(),
+    UnitGuesses(),
+    PastedText(),
+    AxisRules(),
+    PoseSearch(),
+    WrittenLimits(),
+)

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.robot.constants import AXIS
+from armscope.robot.constants import AXIS, WRITTEN
 
 if TYPE_CHECKING:
     from armscope.robot.arm import Arm
+    from armscope.robot.description import RobotDescription
 
 BASE = "base"
 
@@ -26,11 +27,14 @@ class WrittenJoint(NamedTuple):
         name: its own.
         placement: (4, 4) its frame in that of the joint before; it turns about z.
         limits: (low, high) rad; None where it has none.
+        effort, speed: N m and rad/s, the most that its drive can.
     """
 
     name: str
     placement: Array
     limits: tuple[float, float] | None
+    effort: float = WRITTEN.effort
+    speed: float = WRITTEN.speed
 
 
 def chain_urdf(name: str, joints: Sequence[WrittenJoint], flange: str, tip: Array) -> ET.Element:
@@ -58,10 +62,25 @@ def chain_urdf(name: str, joints: Sequence[WrittenJoint], flange: str, tip: Arra
         if joint.limits is not None:
             element.set("type", "revolute")
             low, high = (repr(float(limit)) for limit in joint.limits)
-            ET.SubElement(element, "limit", lower=low, upper=high, effort="1000", velocity="10")
+            ET.SubElement(
+                element, "limit", lower=low, upper=high, effort=_said(joint.effort), velocity=_said(joint.speed)
+            )
         parent = link
     add_frame(robot, parent, flange, tip)
     return robot
+
+
+def what_drives_can(description: RobotDescription) -> list[dict[str, float]]:
+    """`effort` and `speed` of a `WrittenJoint` by motor, as far as robot.yaml states them."""
+    found = []
+    for drive in description.drives or ():
+        stated = {"effort": drive.torque_nm, "speed": drive.speed_deg_s and float(np.radians(drive.speed_deg_s))}
+        found.append({name: value for name, value in stated.items() if value is not None})
+    return found
+
+
+def _said(number: float) -> str:
+    return f"{number:.9g}"
 
 
 def add_frame(robot: ET.Element, parent: str, name: str, placement: Array) -> None:
