@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,7 @@ def unseal(archive: Path) -> dict[str, MotionTruth]:
 
 def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTruth:
     about = content["scoring"]
+    rough = tuple(replace(each, minor=True) for each in _effects(content["rough"]))
     return MotionTruth(
         world=world,
         category=about["category"],
@@ -81,8 +83,8 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
         rows=about["rows"],
         stated=about["stated"],
         outside=about["outside_library"],
-        effects=tuple(_effect(each) for each in content["effects"]),
-        rough=tuple(replace(_effect(each), minor=True) for each in content["rough"]),
+        effects=_with_what_is_rough(_effects(content["effects"]), rough),
+        rough=rough,
         also_allowed=tuple((effect, location) for effect, location in content["also_allowed"]),
         background={each["location"]: {name: each[key] for name, key in BACKGROUND.items()} 
                     for each in content["background"]},
@@ -91,6 +93,33 @@ def _truth(world: str, content: dict[str, Any], test: pd.DataFrame) -> MotionTru
         left_moving_nm=np.array(content["left_moving_nm"]),
         test=test,
     )  # fmt: skip
+
+
+def _effects(contents: Sequence[dict[str, Any]]) -> tuple[Concealed, ...]:
+    """What is concealed, two of one name as one: two loads of one flange weigh together."""
+    found: dict[Name, Concealed] = {}
+    for each in map(_effect, contents):
+        known = found.get(each.name)
+        found[each.name] = (
+            each if known is None else replace(_summed(known, each), strength=known.strength + each.strength)
+        )
+    return tuple(found.values())
+
+
+def _with_what_is_rough(effects: Sequence[Concealed], rough: Sequence[Concealed]) -> tuple[Concealed, ...]:
+    """Causes with the numbers that the arm has: those of a cause and of the small errors of its name add up."""
+    small = {each.name: each for each in rough}
+    return tuple(_summed(each, small[each.name]) if each.name in small else each for each in effects)
+
+
+def _summed(one: Concealed, other: Concealed) -> Concealed:
+    """One with the other's numbers added, as far as both have them; others of it are not comparable."""
+    both = {
+        name: (value + other.parameters[name][0], unit)
+        for name, (value, unit) in one.parameters.items()
+        if name in other.parameters
+    }
+    return replace(one, parameters=both)
 
 
 def _effect(content: dict[str, Any]) -> Concealed:

@@ -1,0 +1,57 @@
+"""Two soft springs and a beam that moves the tool much as both: columns that are no robot's."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from armscope.diagnosis.ordinary_give import GIVE, told_as_ordinary
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
+from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.problem import build_problem
+from armscope.inference.search import Search
+from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING
+
+ROWS, NOISE = 300, 0.1
+SPACE: Any = SimpleNamespace(
+    placed=[SimpleNamespace(effect=e) for e in (JOINT_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING)]
+)
+
+
+def searched(beam_itself: bool) -> tuple[Search, Hypothesis]:
+    """What a search says of two springs; of the beam itself, whose own share is what no springs do."""
+    rng = np.random.default_rng(11)
+    base, one, other, rest, own = rng.normal(size=(5, ROWS))
+    share = 0.5 if beam_itself else 0.03
+    beam = (one + other) / np.sqrt(2) + share * own
+    X = np.column_stack([np.ones(ROWS), one, other, beam, base, rest])
+    y = (0.5 * beam if beam_itself else 0.35 * (one + other)) + rng.normal(0, NOISE, ROWS)
+    candidates = tuple(
+        Candidate(name, name, np.array([column]), np.ones(1))
+        for name, column in (("spring 1", 1), ("spring 2", 2), ("beam", 3))
+    )
+    families = (
+        ToleranceFamily("geometric", np.array([4]), np.ones(1), (0.0, 0.1), is_priced=False),
+        ToleranceFamily("elastic", np.array([1, 2, 5]), np.full(3, 1.0), (0.0, 0.1, 0.3, 1.0)),
+    )
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    problem = build_problem(ModelSpace(np.array([0]), families, candidates, starts=((1, 0),)), equations, 0.5 * NOISE)
+    search = Search.on(problem)
+    return search, search.best()
+
+
+def test_two_soft_springs_are_no_bending_beam() -> None:
+    search, found = searched(beam_itself=False)
+    assert found.candidates == {2}  # one name costs less than two
+    told = told_as_ordinary(search, SPACE, found)
+    assert not told.candidates
+    assert told.background[GIVE]
+
+
+def test_a_beam_that_bends_keeps_its_name() -> None:
+    search, found = searched(beam_itself=True)
+    assert found.candidates == {2}
+    assert told_as_ordinary(search, SPACE, found) is found
