@@ -15,6 +15,7 @@ import pydantic
 import yaml
 
 from armscope.core.plainyaml import CONTROL, NotPlain, plain_yaml
+from armscope.core.streams import at_hand
 
 _STEERING = re.compile(f"{CONTROL.pattern}|[\u202a-\u202e\u2066-\u2069]")
 """Control characters, and those that turn the order of what stands beside them."""
@@ -147,7 +148,7 @@ def read_yaml(path: Path | str) -> Any:
     path = Path(path)
     note_read(path)
     try:
-        content = path.read_bytes()
+        content = at_hand(path).read_bytes()
         if b"\0" in content:  # UTF-16 and binary files, which PyYAML would try to guess
             raise InputError(path, f"byte {content.index(0)}", "no UTF-8 text", "YAML files are UTF-8")
         return plain_yaml(content.decode("utf-8-sig"))

@@ -1,4 +1,4 @@
-"""Outputs that are no files to be replaced: standard output, devices, pipes."""
+"""What is no file: outputs that are written into (standard output, devices, pipes), inputs that are read once."""
 
 from __future__ import annotations
 
@@ -7,8 +7,60 @@ import os
 import shutil
 import stat
 import sys
+import tempfile
+from collections.abc import Iterator
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TextIO
+
+_COPIES: ContextVar[dict[str, Path] | None] = ContextVar("copies of pipes", default=None)
+STANDARD_INPUT = ("-", "/dev/stdin")
+
+
+@contextlib.contextmanager
+def pipes_kept() -> Iterator[None]:
+    """Within the block a pipe is read once, whoever asks for it how often: see `at_hand`."""
+    if _COPIES.get() is not None:
+        yield
+        return
+    with tempfile.TemporaryDirectory(prefix="armscope-") as folder:
+        before = _COPIES.set({"": Path(folder)})
+        try:
+            yield
+        finally:
+            _COPIES.reset(before)
+
+
+def at_hand(path: Path | str) -> Path:
+    """Where an input can be read from its start as often as one likes: a copy of a pipe, or of standard input ("-").
+
+    Raises:
+        OSError: it can't be read.
+    """
+    path, copies = Path(path), _COPIES.get()
+    if copies is None or not _is_read_once(path):
+        return path
+    name = "-" if str(path) in STANDARD_INPUT else str(path)
+    if name not in copies:
+        made = copies[""] / str(len(copies))
+        with made.open("wb") as copy:
+            if name == "-":
+                shutil.copyfileobj(sys.stdin.buffer, copy)
+            else:
+                with path.open("rb") as stream:
+                    shutil.copyfileobj(stream, copy)
+        copies[name] = made
+    return copies[name]
+
+
+def _is_read_once(path: Path) -> bool:
+    """Whether it is standard input by its own sign, or a pipe: not devices, some of which never end."""
+    if str(path) == "-":
+        return True
+    with contextlib.suppress(OSError, ValueError):
+        mode = os.stat(path).st_mode
+        return stat.S_ISFIFO(mode) or stat.S_ISSOCK(mode)
+    return False
 
 
 def is_stream(path: Path | str) -> bool:
