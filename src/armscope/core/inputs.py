@@ -155,8 +155,12 @@ def read_yaml(path: Path | str) -> Any:
     except OSError as error:
         found, cure = unreadable(path, error, (".yaml", ".yml"))
         raise InputError(path, "", found, "a YAML file is needed here", cure) from error
-    except (yaml.YAMLError, NotPlain) as error:
-        mark = getattr(error, "problem_mark", None) or getattr(error, "mark", None)
+    except NotPlain as error:
+        place = f"line {error.mark.line + 1}, column {error.mark.column + 1}"
+        rule = "a configuration is one document of plain values"
+        raise InputError(path, place, error.problem, rule, error.cure) from error
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
         problem = getattr(error, "problem", None) or "it can't be parsed"
         raise InputError(path, place, problem, "this must be valid YAML", "Check indentation and colons.") from error
