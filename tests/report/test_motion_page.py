@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import html
 import math
 import re
@@ -23,8 +24,6 @@ from armscope.motion.export import write_motion
 from armscope.motion.fitting.selected import coefficients_of
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.summary.holding_out import folds
-from armscope.report.figures.motion import FRICTION, LEFT, TRACE, draw_friction, draw_trace
-from armscope.report.figures.waterfall import STEPS
 from armscope.report.motion_subject import MotionSubject, liveliest_piece
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sectioning import write_sections
@@ -50,10 +49,15 @@ def cabled(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
     return extra
 
 
-@pytest.fixture(scope="module")
-def found() -> MotionDiagnosis:
+@functools.cache
+def of_a_cable() -> MotionDiagnosis:
     arm = robot()
     return diagnose_motion(arm, moved(arm, 7, cabled), MotionSettings(cutoff=10.0))
+
+
+@pytest.fixture(scope="module")
+def found() -> MotionDiagnosis:
+    return of_a_cable()
 
 
 @pytest.fixture(scope="module")
@@ -280,31 +284,6 @@ def test_the_atlas_frames_what_was_named(found: MotionDiagnosis) -> None:
     }
     assert ("joint 1", "joint angle") in framed
     assert framed == {(cause.joint, cause.driver) for cause in found.verdict.effects}
-
-
-def test_figures_hold_what_they_are_given() -> None:
-    time = np.linspace(0, 1, 20)
-    drawn = draw_trace("joint 9", "N", time, [(np.sin(time), "a", 1.0), (time, "b", 1.0), (time, "c", 1.0)]).svg()
-    assert "joint 9" in drawn
-    assert "torque (N)" in drawn
-    curve = (np.linspace(-1, 1, 9), np.linspace(-2, 2, 9))
-    assert "speed (deg/s)" in draw_friction("joint 1", curve, curve, ("speed (deg/s)", "friction (N m)")).svg()
-
-
-def test_what_colours_stand_for_is_shown_in_the_colours_themselves(found: MotionDiagnosis, tmp_path: Path) -> None:
-    """A dark page has others: "dark: measured" was false there."""
-    sections = write_sections(MOTION_SECTIONS, MotionSubject(found, "motions.csv"), "motion", tmp_path)
-    shown = {each.name: str(each.html) for each in sections}
-    for name, keys in (("torque", TRACE), ("friction", FRICTION), ("unexplained", LEFT), ("validation", STEPS)):
-        drawn, told = shown[name].rsplit("</svg>", 1)
-        for key in keys:
-            assert f'<i style="border-color: {key.colour}"></i>{key.words}' in told, name
-            assert key.colour in drawn or key.words == "what it added", name
-        assert not re.search(r"\b(dark|orange|blue|pale|grey):", told, re.IGNORECASE), name
-    lines = re.findall(r'<path[^>]*stroke="var\(--(measured|before|after)[^>]*>', shown["torque"])
-    dashed = re.findall(r'<path[^>]*stroke="var\(--(\w+)[^>]*stroke-dasharray', shown["torque"])
-    assert set(lines) == {"measured", "before", "after"}
-    assert set(dashed) == {"before"}, "they differ without their colours, too"
 
 
 def test_the_shown_piece_has_no_gap(found: MotionDiagnosis) -> None:
