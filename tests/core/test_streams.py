@@ -38,8 +38,10 @@ def test_a_dash_is_standard_input(monkeypatch):
         assert at_hand("-").read_bytes() == at_hand("-").read_bytes() == b"told"
 
 
-def test_files_and_what_never_ends_are_left_where_they_are(tmp_path):
+def test_files_and_what_never_ends_are_left_where_they_are(tmp_path, monkeypatch):
+    """Nothing is made for them, either: a command that is killed leaves nothing behind."""
     (tmp_path / "table.csv").write_text("a")
+    monkeypatch.setattr("tempfile.tempdir", "/nowhere")
     with pipes_kept():
         for path in (tmp_path / "table.csv", tmp_path / "absent.csv", tmp_path, "/dev/zero"):
             assert str(at_hand(path)) == str(path)

@@ -13,7 +13,8 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TextIO
 
-_COPIES: ContextVar[dict[str, Path] | None] = ContextVar("copies of pipes", default=None)
+_COPIES: ContextVar[tuple[contextlib.ExitStack, dict[str, Path]] | None] = ContextVar("copies of pipes", default=None)
+"""Copies by what they are of, and what removes them."""
 STANDARD_INPUT = ("-", "/dev/stdin")
 
 
@@ -23,8 +24,8 @@ def pipes_kept() -> Iterator[None]:
     if _COPIES.get() is not None:
         yield
         return
-    with tempfile.TemporaryDirectory(prefix="armscope-") as folder:
-        before = _COPIES.set({"": Path(folder)})
+    with contextlib.ExitStack() as removing:
+        before = _COPIES.set((removing, {}))
         try:
             yield
         finally:
@@ -37,12 +38,13 @@ def at_hand(path: Path | str) -> Path:
     Raises:
         OSError: it can't be read.
     """
-    path, copies = Path(path), _COPIES.get()
-    if copies is None or not _is_read_once(path):
+    path, kept = Path(path), _COPIES.get()
+    if kept is None or not _is_read_once(path):
         return path
+    removing, copies = kept
     name = "-" if str(path) in STANDARD_INPUT else str(path)
     if name not in copies:
-        made = copies[""] / str(len(copies))
+        made = Path(removing.enter_context(tempfile.TemporaryDirectory(prefix="armscope-"))) / "copy"
         with made.open("wb") as copy:
             if name == "-":
                 shutil.copyfileobj(sys.stdin.buffer, copy)
