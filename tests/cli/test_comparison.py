@@ -93,3 +93,7 @@ def test_recordings_are_called_by_what_tells_them_apart(files, names, tmp_path):
         if "." in file:
             path.touch()
     assert _names([tmp_path / file for file in files]) == names
+
+
+def test_recordings_from_pipes_are_called_as_they_were_given():
+    assert _names([Path("/dev/fd/63"), Path("/dev/fd/62"), Path("-")]) == ["63", "62", "-"]
