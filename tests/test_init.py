@@ -25,6 +25,12 @@ def test_a_name_a_table_and_a_urdf_become_robot_yaml(tmp_path):
     assert "guess: tip" in done.stderr
 
 
+MIMIC = (
+    '<joint name="j2" type="revolute"><parent link="l2"/><child link="l3"/><axis xyz="0 1 0"/>'
+    '<limit lower="-3" upper="3" effort="1" velocity="1"/><mimic {}/></joint>'
+)
+
+
 def test_a_urdf_of_one_chain_becomes_robot_yaml(tmp_path):
     """Nothing to hold: name, file and tip are single values, and what was guessed follows them."""
     (tmp_path / "arm.urdf").write_text(plain_urdf(6))
@@ -32,6 +38,37 @@ def test_a_urdf_of_one_chain_becomes_robot_yaml(tmp_path):
     assert done.exit_code == 0, done.output
     assert load_arm(tmp_path / "robot.yaml").n_motors == 6
     assert "source:\n  tip: 'guessed" in (tmp_path / "robot.yaml").read_text()
+
+
+FLOATS = '<joint name="free" type="floating"><parent link="l2"/><child link="l3"/></joint>'
+
+
+@pytest.mark.parametrize(
+    ("third", "told"),
+    [
+        (FLOATS, "joint free: found 'a floating joint'"),
+        (FLOATS.replace("floating", "planar"), "joint free: found 'a planar joint'"),
+        (MIMIC.format('joint="j1" offset="0.1"'), "joint j2: found 'mimic of j1'; its offset of 0.1"),
+        (MIMIC.format('joint="j2"'), "joint j2: found 'mimic of j2'"),
+    ],
+)
+def test_a_robot_yaml_that_no_command_could_read_is_not_written(third, told, tmp_path):
+    whole = plain_urdf(4)
+    start = whole.index('<joint name="j2"')
+    (tmp_path / "arm.urdf").write_text(
+        whole[:start] + third + whole[whole.index("</joint>", start) + len("</joint>") :]
+    )
+    done = run("init", tmp_path / "arm.urdf", "--tip", "l4", "-o", tmp_path / "robot.yaml")
+    assert isinstance(done.exception, InputError), done.output
+    assert told in str(done.exception)
+    assert not (tmp_path / "robot.yaml").exists()
+
+
+def test_an_arm_whose_joints_slide_still_becomes_robot_yaml(tmp_path):
+    whole = plain_urdf(3).replace('type="revolute"', 'type="prismatic"')
+    (tmp_path / "gantry.urdf").write_text(whole)
+    assert run("init", tmp_path / "gantry.urdf", "-o", tmp_path / "robot.yaml").exit_code == 0
+    assert "gantry.urdf" in (tmp_path / "robot.yaml").read_text()
 
 
 def plain_urdf(joints: int) -> str:

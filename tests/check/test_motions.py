@@ -116,7 +116,7 @@ def test_a_motion_that_is_too_short_is_told_in_the_words_of_the_diagnosis(good: 
     with pytest.raises(InputError, match=told) as refused:
         diagnose_motion(robot(), short)
     assert words[0].statement == f"{refused.value.found}: {refused.value.rule}"
-    with pytest.raises(InputError, match=r"Record ten seconds or more\.$"):
+    with pytest.raises(InputError, match=r"From sample to sample it goes on by 0\.005\. Record ten seconds or more\.$"):
         refuse_problems(found.suspicions, "motions.csv")
     assert "longer than" not in said(good.rows(good.time < 2.5))
 

@@ -39,8 +39,16 @@ def table(arm):
 def test_nothing_is_said_of_a_sound_table(arm, table):
     assert of_quantities(table, arm) == []
     assert of_quantities(table, None) == []
+    for seconds in (45292 + table.time, 45292 + 1e-3 * table.time, 20 * table.time / 86400):
+        assert of_quantities(replace(table, time=seconds), arm) == []
     none = dict.fromkeys(("torque", "time", "temperature", "payload", "sigma"))
     assert of_quantities(replace(table, **none), arm) == []
+
+
+def test_days_as_spreadsheets_count_them_are_no_seconds(arm, table):
+    (found,) = of_quantities(replace(table, time=45292 + 20 * table.time / 86400), arm)
+    assert found.weight == "hint"
+    assert "time_s reads 45292 ... 45292.01, a row usually 0.00023 after another. A spreadsheet" in found.text()
 
 
 @pytest.mark.parametrize(

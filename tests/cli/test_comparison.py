@@ -8,6 +8,7 @@ from tests.comparison.test_changes import session
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.cli.comparison import _names
 from armscope.core.inputs import InputError
 
 ROBOT = Path(__file__).parents[2] / "examples" / "five-effects" / "robot.yaml"
@@ -73,3 +74,26 @@ def test_tables_that_can_be_used_are_compared(folder):
     result = compared(folder)
     assert result.exit_code == 0, result.exception
     assert "Nothing changed that these recordings show" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("files", "names"),
+    [
+        (["a/may.csv", "a/june.csv", "a/may.csv"], ["1: may", "2: june", "3: may"]),
+        (["a/may.csv", "a/june.csv", "b/may.csv"], ["a/may", "a/june", "b/may"]),
+        (["a/recordings.csv", "b/recordings.csv.gz"], ["a", "b"]),
+        (["a/may.csv", "b/june.csv"], ["may", "june"]),
+        (["a", "b"], ["a", "b"]),
+    ],
+)
+def test_recordings_are_called_by_what_tells_them_apart(files, names, tmp_path):
+    for file in files:
+        path = tmp_path / file
+        (path if "." not in file else path.parent).mkdir(exist_ok=True)
+        if "." in file:
+            path.touch()
+    assert _names([tmp_path / file for file in files]) == names
+
+
+def test_recordings_from_pipes_are_called_as_they_were_given():
+    assert _names([Path("/dev/fd/63"), Path("/dev/fd/62"), Path("-")]) == ["63", "62", "-"]

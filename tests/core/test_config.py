@@ -44,6 +44,10 @@ def test_every_assumed_number_has_a_source():
         ({"paper": {"identification": {"poses": {"value": 47}}}}, "paper.identification.poses.value"),
         ({"paper": {"identification": {"candidates": {"value": 84}}}}, "paper.identification.candidates"),
         ({"seed": -1}, "seed"),
+        ({"results": "/tmp/with space"}, "results"),
+        ({"results": "results/$HOME"}, "results"),
+        ({"recordings_dir": "../it's"}, "recordings_dir"),
+        ({"fleet": "a;b.csv"}, "fleet"),
         ({"sed": 1}, "sed"),
     ],
 )
@@ -53,6 +57,14 @@ def test_a_wrong_key_type_or_range_is_named(change, place):
     with pytest.raises(InputError) as caught:
         validate(Config, content, "config.yaml")
     assert caught.value.place == place
+
+
+def test_a_folder_that_a_shell_would_cut_in_two_is_refused_with_what_is_allowed():
+    content = read_yaml(DEFAULT) | {"results": "/tmp/with space"}
+    with pytest.raises(InputError, match=r"results: found '/tmp/with space'; a path of letters.*no spaces.*link"):
+        validate(Config, content, "config.yaml")
+    for path in ("/tmp/Büro/süd-2", "results/seed=7", "../x.y/z_1"):
+        assert validate(Config, content | {"results": path}, "config.yaml").results == path
 
 
 def test_too_few_poses_are_refused_with_how_many_are_needed_and_why():

@@ -55,6 +55,26 @@ def test_broken_yaml_is_an_error_with_line_and_column(tmp_path):
         read_yaml(written(tmp_path, "a: 1\nb: [1, 2\nc: 3\n"))
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("a: 1\n---\nb: 2\n", "found 'a second document'; a configuration is one document.*Leave out the line `---`"),
+        ("a: !size 3\n", "line 1, column 4: found 'the tag !size'.*Leave out the word that begins with `!`"),
+        ("a_mm: 19:10\n", "line 1, column 7: found '19:10, neither a number nor a word'.*19.10.*in quotes"),
+        ("a_mm: 1:30.5\n", "found '1:30.5, neither"),
+    ],
+)
+def test_what_is_yaml_but_no_configuration_is_told_with_its_own_cure(tmp_path, text, told):
+    """Indentation and colons were not the cause; 19:10 was 1150 without a word."""
+    with pytest.raises(InputError, match=told) as caught:
+        read_yaml(written(tmp_path, text))
+    assert "indentation" not in str(caught.value)
+
+
+def test_times_of_day_in_quotes_are_words(tmp_path):
+    assert read_yaml(written(tmp_path, "a: '19:10'\nb: at 19:10\nc: 2024-01-01 19:10:11\n"))["a"] == "19:10"
+
+
 def test_a_key_that_stands_twice_is_not_silently_dropped(tmp_path):
     assert yaml.safe_load("a: 1\na: 2\n") == {"a": 2}  # what plain YAML does
     with pytest.raises(InputError, match="'a' twice"):

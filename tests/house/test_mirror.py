@@ -26,7 +26,6 @@ STILL_FROM_ELSEWHERE = [
     "core/numerals.py",
     "core/plainyaml.py",
     "core/records.py",
-    "core/streams.py",
     "core/types.py",
     "diagnosis/row_noise.py",
     "diagnosis/scans/change_points.py",

@@ -1,6 +1,6 @@
 """The page and its figures, from tables of worlds of every kind of ending."""
 
-from __future__ import annotations
+import re
 
 import numpy as np
 import pytest
@@ -52,3 +52,9 @@ def test_every_figure_and_the_page_can_be_made(count, tmp_path):
     assert "too few cases" in page
     assert ("it broke" in page) == (count > 1)
     assert 'src="http' not in page
+    heads = re.findall(r"<th[^>]*>([^<]*)</th>", page)
+    assert "exact, minor names aside" in heads
+    assert not [head for head in heads if "_" in head], "columns are called by words"
+    nav = re.search(r"nav \{([^}]*)\}", page)
+    assert nav
+    assert "flex-wrap: wrap" in nav[1], "links without blanks between them break no line by themselves"

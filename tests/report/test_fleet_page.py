@@ -11,6 +11,7 @@ from armscope.fleet.members import read_fleet
 from armscope.fleet.simulation import simulate
 from armscope.fleet.summary import arms, causes_of_arms, verdicts
 from armscope.report.figures.fleet import fleet_figure
+from armscope.report.html import render_page
 from armscope.report.pages.fleet import write_fleet_page
 
 
@@ -37,12 +38,33 @@ def test_diagnoses_of_a_simulated_fleet_end_in_one_page(tmp_path):
     assert "no arm is far" not in page, "nobody was compared"
 
 
+def test_a_large_fleet_is_as_wide_as_its_page_and_its_words_as_high_as_the_pages():
+    causes = [f"{name} at joint {j}" for name in ("backlash", "joint_offset", "gear_ratio") for j in range(1, 7)]
+    rows = [(cause, f"arm-{n:03d}") for n in range(40) for cause in causes[: 1 + n % 18]]
+    table = pd.DataFrame(rows, columns=["cause", "arm"]).assign(minor=False, type="six-axis", date="2026-01", run="")
+    figure = fleet_figure(table.assign(rms_at_tool_mm=0.1))
+    assert figure.get_figwidth() * 96 <= 1016, "the page's own width"
+    labels = [*figure.axes[0].get_xticklabels(), *figure.axes[0].get_yticklabels()]
+    assert min(label.get_fontsize() for label in labels) >= 9
+
+
+def test_the_fleets_page_keeps_what_its_colours_mean_and_gives_words_their_room(tmp_path):
+    of = {"arm": ["a", "b"], "type": "six-axis", "answer": "mismatch", "headline": "Joint 2 gives way."}
+    page = render_page(
+        "fleet.html.j2", arms=pd.DataFrame(of), outliers=[], common=[], repeated=pd.DataFrame(of), failed=[],
+        figure=None, wide_px=900, comparable=False, fewest="five", types="one", limit=3, share=0.3,
+    )  # fmt: skip
+    assert "figure.as-drawn img { filter: none;" in page
+    assert "td.words:last-child { min-width: 22rem; }" in page
+    assert "rows that were fitted" in page
+
+
 @pytest.mark.parametrize("sizes", [[2.0, 5.5], [0.03, 3.1], [0.9, 1.2]])
 def test_the_colour_bar_has_plain_numbers(sizes):
     of = {"minor": False, "type": "six-axis", "arm": ["a", "b"], "date": "", "run": "", "rms_at_tool_mm": sizes}
     figure = fleet_figure(pd.DataFrame({"cause": ["joint_offset at joint 1", "backlash at joint 2"], **of}))
     figure.canvas.draw()
-    told = [each.get_text() for each in figure.axes[1].yaxis.get_ticklabels(which="both")]
+    told = [each.get_text() for each in figure.axes[1].xaxis.get_ticklabels(which="both")]
     shown = [each for each in told if each]
     assert shown
     assert all(0.009 < float(each) < 11 for each in shown)

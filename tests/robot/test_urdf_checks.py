@@ -47,6 +47,39 @@ def test_the_rule_is_that_of_robot_yaml():
     assert "no body has principal inertias -0.02, 0.16, 0.16" in str(error.value)
 
 
+def with_range(kind, lower, upper):
+    limit = f"<limit effort='1' velocity='1'{lower}{upper}/>"
+    joint = f"<joint name='j1' type='{kind}'><parent link='a'/><child link='b'/>{limit}</joint>"
+    return ET.fromstring(f"<robot name='made'><link name='a'/><link name='b'/>{joint}</robot>")
+
+
+@pytest.mark.parametrize(
+    ("kind", "lower", "upper", "told"),
+    [
+        ("revolute", "-180", "180", r"joint j1, limit lower: found '-180'.*-180 degrees are -3\.14159"),
+        ("revolute", "-3", "1e16", r"joint j1, limit upper: found '1e16'.*`continuous`"),
+        ("revolute", "2", "-2", r"joint j1, limit: found 'lower 2, upper -2'; lower is not above upper"),
+        ("prismatic", "0.5", "0.1", r"found 'lower 0\.5, upper 0\.1'"),
+    ],
+)
+def test_a_range_that_is_in_degrees_or_the_wrong_way_round_is_refused(kind, lower, upper, told):
+    with pytest.raises(InputError, match=told):
+        refuse_contradictions("made.urdf", with_range(kind, f" lower='{lower}'", f" upper='{upper}'"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "lower", "upper"),
+    [
+        ("revolute", "", ""), ("revolute", " lower='0'", " upper='0'"),
+        ("revolute", " lower='-12.56'", " upper='12.56'"),
+        ("revolute", " lower='-inf'", " upper='inf'"), ("continuous", " lower='-1e16'", " upper='1e16'"),
+        ("prismatic", " lower='-20'", " upper='20'"),
+    ],
+)  # fmt: skip
+def test_a_range_that_is_not_stated_or_can_be_is_taken(kind, lower, upper):
+    refuse_contradictions("made.urdf", with_range(kind, lower, upper))
+
+
 @pytest.mark.shared
 @pytest.mark.skipif(not SHARED.is_dir(), reason="no folder of shared material")
 def test_shared_urdfs_load_as_they_are():

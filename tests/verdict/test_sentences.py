@@ -178,6 +178,9 @@ def test_nothing_missing_and_cannot_tell_are_whole_answers():
     undecided = headline(verdicts.cannot_tell().verdict)
     assert undecided.startswith("Cannot tell: 40 rows are fewer")
     assert "would settle it" in undecided
+    asked = replace(verdicts.cannot_tell().verdict, next_poses=None, notices=(Notice("check", "Is it another robot?"),))
+    assert headline(asked) == "Cannot tell: is it another robot?"
+    assert headline(replace(asked, notices=(Notice("check", "It is another."),))) == "Cannot tell: it is another."
     excess = verdicts.case(answer="cannot tell", mismatch=True).verdict
     assert "follow nothing that was recorded" in headline(excess)
 

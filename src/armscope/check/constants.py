@@ -204,6 +204,18 @@ class Quantities(Constants):
         "judgement: a session is a matter of hours",
         unit="s",
     )
+    day_numbers: tuple[float, float] = constant(
+        (25_000.0, 75_000.0),
+        "how spreadsheets count the days of which a table may be",
+        "convention: days since 1899-12-30; from 1968 to 2105",
+        unit="days",
+    )
+    days_apart: tuple[float, float] = constant(
+        (1e-5, 9e-4),
+        "between rows whose time_s is counted in days",
+        "judgement: a pose takes a second or a minute; seconds are as near to each other at a kilohertz, 1e-3, only",
+        unit="days",
+    )
     heaviest: float = constant(
         2500.0, "largest payload of any arm", "judgement: no arm carries more; nor more than its own mass", unit="kg"
     )

@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.calibration.model import set_up
 from armscope.check.constants import TABLE
 from armscope.check.report import what_forbids
 from armscope.check.suspicion import BESIDE, Suspicion, refuse_problems
@@ -68,12 +67,6 @@ def refuse_unusable(arm: Arm, recordings: Recordings, anyway: str = "diagnoses")
     """
     suspicions = what_forbids(replace(recordings, orientation=None), arm)
     refuse_problems(suspicions, recordings.source, anyway)
-
-
-def rows_needed(arm: Arm, recordings: Recordings) -> int:
-    """How many rows a table of these runs and targets needs at least for a diagnosis to begin."""
-    free = int(set_up(arm, recordings).free("nominal").sum())
-    return max(TABLE.rows, 2 * free // 3 + 1)
 
 
 def as_notices(problems: Sequence[Suspicion], obstacle: Notice | None) -> tuple[Notice, ...]:

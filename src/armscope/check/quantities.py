@@ -78,6 +78,10 @@ def _time(recordings: Recordings) -> Suspicion | None:
     if usual > QUANTITIES.between_rows:
         statement = f"a row usually comes {usual / 3600:.3g} hours after the one before"
         return Suspicion("hint", statement, "time_s is in seconds: are these milliseconds?")
+    known, (low, high) = _known(recordings.time), QUANTITIES.day_numbers
+    if QUANTITIES.days_apart[0] < usual < QUANTITIES.days_apart[1] and low < known.min() and known.max() < high:
+        statement = f"time_s reads {known.min():.7g} ... {known.max():.7g}, a row usually {usual:.2g} after another"
+        return Suspicion("hint", statement, "A spreadsheet counts days so: time_s is in seconds, 86,400 a day.")
     back = int((steps < 0).sum())
     if not back:
         return None

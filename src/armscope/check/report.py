@@ -9,13 +9,13 @@ import numpy as np
 
 from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
+from armscope.check.enough_rows import still, too_few
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import BESIDE, Suspicion, verdict_lines
+from armscope.check.suspicion import BESIDE, TOO_SHORT, Suspicion, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.check.targets import named_row_by_row
 from armscope.core.files import plain_values
 from armscope.recordings import Recordings
-from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.verdict.schema import ANOTHER_MODEL
 
@@ -69,7 +69,8 @@ def check(recordings: Recordings, arm: Arm | None = None) -> CheckReport:
     consistency = None if arm is None else against_arm(arm, recordings)
     fits = arm if arm is not None and arm.n_motors == recordings.n_motors else None
     of_arm = consistency.suspicions if consistency else ()
-    found = [*_of_table(contents), *_still(recordings), *of_quantities(recordings, fits)]
+    found = [*_of_table(contents), *still(recordings), *of_quantities(recordings, fits)]
+    found += [] if any(each.kind == TOO_SHORT for each in found) else too_few(recordings, fits)
     alone = [] if arm else [*named_row_by_row(recordings), *_of_units(contents)]
     return CheckReport(contents, consistency, (*of_arm, *found, *alone))
 
@@ -84,12 +85,8 @@ def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
     Returns:
         Its problems, whether it is another model's, and whether gravity or sides of approach seem to be turned round.
     """
-    found = (*against_arm(arm, recordings).suspicions, *_still(recordings), *of_quantities(recordings, arm))
+    found = (*against_arm(arm, recordings).suspicions, *still(recordings), *of_quantities(recordings, arm))
     return tuple(each for each in found if each.weight == "problem" or each.kind in (ANOTHER_MODEL, *BESIDE))
-
-
-def _still(recordings: Recordings) -> tuple[Suspicion, ...]:
-    return () if moving(recordings.motor_angles).any() else (Suspicion("problem", "no joint moves"),)
 
 
 def _of_table(contents: Contents) -> tuple[Suspicion, ...]:

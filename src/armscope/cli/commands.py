@@ -20,7 +20,7 @@ from armscope.cli.endings import plain_words, told_to_end
 from armscope.core.inputs import InputError
 from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
-from armscope.core.streams import is_stream
+from armscope.core.streams import is_stream, pipes_kept
 
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
@@ -98,7 +98,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
         _refuse_endless(values)
-        with _silence() if quiet else plain_words():
+        with _silence() if quiet else plain_words(), pipes_kept():
             if outputs:
                 deliver(force, values)
             else:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from armscope.cli.commands import ArmOrFolders, Commands
+from armscope.core.streams import is_stream
 
 app = Commands()
 
@@ -65,9 +66,9 @@ def compare(
 
 def _names(paths: list[Path]) -> list[str]:
     """What the recordings are called: folders or files by their own name, numbered where that is not enough."""
-    names = [path.resolve().name.removesuffix(".gz").removesuffix(".csv") for path in paths]
-    if len(set(names)) < len(names):
-        names = [
-            path.resolve().parent.name if path.is_file() else name for path, name in zip(paths, names, strict=True)
-        ]
+    named = [path if is_stream(path) else path.resolve() for path in paths]  # what a pipe leads to has no name
+    own = [path.name.removesuffix(".gz").removesuffix(".csv") for path in named]
+    folders = [path.parent.name if path.is_file() else name for path, name in zip(named, own, strict=True)]
+    both = [name if name == folder else f"{folder}/{name}" for name, folder in zip(own, folders, strict=True)]
+    names = max((own, folders, both), key=lambda each: len(set(each)))  # the shortest that tell most apart
     return names if len(set(names)) == len(names) else [f"{n}: {name}" for n, name in enumerate(names, 1)]

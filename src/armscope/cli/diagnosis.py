@@ -151,7 +151,7 @@ def diagnose(
 
 def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     """What stands beside the answer: the check's doubts, what makes it impossible, rows that look like bad shots."""
-    from armscope.check.preconditions import rows_needed
+    from armscope.check.enough_rows import rows_needed
     from armscope.check.suspicion import BESIDE
     from armscope.core.numerals import rounded
     from armscope.verdict.payload_place import of_payloads

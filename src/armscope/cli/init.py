@@ -11,6 +11,7 @@ import typer
 from armscope.cli.commands import Commands
 from armscope.core.inputs import InputError
 from armscope.core.outputs import current
+from armscope.core.streams import is_stream
 from armscope.recordings.opening import UTF_16
 
 app = Commands()
@@ -40,7 +41,9 @@ def init(
         if not list_:
             raise InputError("WHAT", "", "nothing", WHAT, "Arms: " + ", ".join(nominal_names()) + ".")
         return
-    text, guesses = _first_file(what, output, tip, name, modified)
+    text, guesses, is_robot = _first_file(what, output, tip, name, modified)
+    if is_robot:
+        _refuse_unusable(text, output)
     for guess in guesses:
         print(f"guess: {guess}", file=sys.stderr)
     from armscope.core.files import write_text
@@ -48,8 +51,29 @@ def init(
     write_text(output, text)
 
 
-def _first_file(what: str, output: Path, tip: str | None, name: str, modified: bool) -> tuple[str, list[str]]:
-    """The file's text, and what was guessed for it."""
+def _refuse_unusable(text: str, output: Path) -> None:
+    """A robot.yaml that no command could read is not written: it is read as they do.
+
+    Raises:
+        InputError: what they would say.
+    """
+    from armscope.core.plainyaml import plain_yaml
+    from armscope.robot.arm import build_arm
+    from armscope.robot.description_file import described
+    from armscope.robot.model import pinocchio_model
+    from armscope.robot.urdf import SLIDING
+
+    found = described(plain_yaml(text), output)
+    try:
+        build_arm(found)
+    except InputError as error:
+        if error.found != SLIDING:
+            raise
+        pinocchio_model(found, sliding=True)  # tables of motions are taken of it
+
+
+def _first_file(what: str, output: Path, tip: str | None, name: str, modified: bool) -> tuple[str, list[str], bool]:
+    """The file's text, what was guessed for it, and whether it is of an arm."""
     from armscope.robot.description_file import as_yaml, describe_urdf, guesses
     from armscope.robot.library import is_nominal, nominal_file
     from armscope.robot.urdf_file import is_xml
@@ -59,6 +83,9 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
 
         described = parse_dh_table(_pasted(), name, "modified" if modified else "standard")
     elif is_xml(what):
+        if is_stream(what):
+            rule = "robot.yaml names its URDF, which must stay a file"
+            raise InputError(what, "", "a URDF on a pipe", rule, "Save it to a file first.")
         described = describe_urdf(what, tip)
     elif Path(what).exists() or not is_nominal(what):
         if not Path(what).exists() and not Path(what).suffix:
@@ -66,12 +93,16 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
         from armscope.recordings.importing.draft_motions import draft_any_mapping
 
         text = draft_any_mapping(what)
-        return text, [line.strip() for line in text.splitlines() if "# guessed" in line or "# to fill in" in line]
+        return (
+            text,
+            [line.strip() for line in text.splitlines() if "# guessed" in line or "# to fill in" in line],
+            False,
+        )
     else:
         file = nominal_file(what)
         text = file.read_text(encoding="utf-8")
-        return text, [line.strip() for line in text.splitlines() if "unsure" in line or "from memory" in line]
-    return as_yaml(described, output.parent), guesses(described)
+        return text, [line.strip() for line in text.splitlines() if "unsure" in line or "from memory" in line], True
+    return as_yaml(described, output.parent), guesses(described), True
 
 
 def _pasted() -> str:

@@ -5,6 +5,7 @@ The JSON schema that Snakemake checks a configuration against is generated from 
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
 import pydantic
@@ -16,6 +17,17 @@ Value = TypeVar("Value")
 Positive = Annotated[float, Field(gt=0)]
 Count = Annotated[int, Field(ge=1)]
 Point = tuple[float, float, float]
+
+
+def _plain_path(path: str) -> str:
+    if not re.fullmatch(r"[\w./+,@=-]+", path) or path.startswith("-"):
+        rule = "a path of letters, digits and . / _ - + , @ = only, no spaces: it becomes part of shell commands"
+        raise ValueError(f"{rule}. Choose another folder, or make a link to this one")
+    return path
+
+
+PlainPath = Annotated[str, AfterValidator(_plain_path)]
+"""A file or folder that rules of the workflow name in their commands."""
 
 
 class Stated(Strict, Generic[Value]):
@@ -129,7 +141,7 @@ class Sensitivity(Strict):
 
     robots: Count = Field(100, description="drawn in each scenario; fewer than 72 can't support a verdict")
     seeds: Count = Field(1, description="swarms for each fit")
-    geometry: Stated[tuple[str, ...]] = Field(description="robot.yaml of other arms")
+    geometry: Stated[tuple[PlainPath, ...]] = Field(description="robot.yaml of other arms")
     tolerance_factors: Stated[tuple[Positive, ...]]
     margins_rad: Stated[tuple[Annotated[float, Field(ge=0)], ...]]
     motor_6_rad: Stated[tuple[Positive, ...]]
@@ -151,7 +163,7 @@ class Model(Strict):
 class Paper(Strict):
     """The reproduction of the 2006 paper on a virtual arm."""
 
-    robot: Stated[str]
+    robot: Stated[PlainPath]
     tolerances: Tolerances
     ensemble: Ensemble = Ensemble()
     identification: Identification
@@ -167,12 +179,12 @@ class Paper(Strict):
 class RealSet(Strict):
     """Real recordings that the paper's models are fitted to; paths below ``recordings_dir``."""
 
-    recordings: str
-    robot: str
+    recordings: PlainPath
+    robot: PlainPath
     run: str | None = None
     first_id: int | None = Field(None, description="leave out the rows of that run before this id")
     title: str
-    reference: str | None = Field(None, description="reference.yaml: the protocol and figures of others")
+    reference: PlainPath | None = Field(None, description="reference.yaml: the protocol and figures of others")
     loads_recorded: bool = Field(False, description="torques or payloads were recorded, and can be withheld")
     diagnosed_splits: Count | None = Field(None, description="splits on which the diagnosis is repeated; null: all")
     oriented_splits: Count | None = Field(None, description="of these, repeated with orientations, too; null: all")
@@ -190,7 +202,7 @@ class Proof(Strict):
 class PoseStudy(Strict):
     """Identification poses chosen for some arms, beside random ones and a grid."""
 
-    robots: dict[str, str] = Field(description="robot.yaml by name")
+    robots: dict[str, PlainPath] = Field(description="robot.yaml by name")
     poses: Stated[Count]
     candidates: Stated[Count]
     seeds: Count = Field(200, description="arms with drawn errors, measured at each set of poses")
@@ -215,18 +227,18 @@ class ProofReal(Strict):
 class Config(Strict):
     """The whole configuration."""
 
-    results: str = "results"
+    results: PlainPath = "results"
     seed: Annotated[int, Field(ge=0)] = 2006
-    recordings_dir: str = "../shared/recordings"
+    recordings_dir: PlainPath = "../shared/recordings"
     paper: Paper
     real: dict[str, RealSet] = Field(default_factory=dict)
     real_sets: tuple[str, ...] | None = Field(None, description="those of `real` that take part; null: all")
-    sweep: str = "config/sweeps/default.csv"
-    fleet: str = Field("config/fleet.csv", description="arms that `snakemake fleet` diagnoses")
+    sweep: PlainPath = "config/sweeps/default.csv"
+    fleet: PlainPath = Field("config/fleet.csv", description="arms that `snakemake fleet` diagnoses")
     poses: PoseStudy
     proof: Proof = Proof()
     proof_real: ProofReal = ProofReal()
-    bench_dir: str = Field("../shared/bench", description="developers' cases; skipped where they are not there")
+    bench_dir: PlainPath = Field("../shared/bench", description="developers' cases; skipped where they are not there")
     bench_parts: Count = Field(8, description="jobs that the bench's cases are diagnosed in")
     proof_seed: Annotated[int, Field(ge=0)] | None = Field(
         None, description="from which half of the proof's worlds are drawn; null: drawn when the proof runs"

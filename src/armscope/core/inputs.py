@@ -15,6 +15,7 @@ import pydantic
 import yaml
 
 from armscope.core.plainyaml import CONTROL, NotPlain, plain_yaml
+from armscope.core.streams import at_hand
 
 _STEERING = re.compile(f"{CONTROL.pattern}|[\u202a-\u202e\u2066-\u2069]")
 """Control characters, and those that turn the order of what stands beside them."""
@@ -147,15 +148,19 @@ def read_yaml(path: Path | str) -> Any:
     path = Path(path)
     note_read(path)
     try:
-        content = path.read_bytes()
+        content = at_hand(path).read_bytes()
         if b"\0" in content:  # UTF-16 and binary files, which PyYAML would try to guess
             raise InputError(path, f"byte {content.index(0)}", "no UTF-8 text", "YAML files are UTF-8")
         return plain_yaml(content.decode("utf-8-sig"))
     except OSError as error:
         found, cure = unreadable(path, error, (".yaml", ".yml"))
         raise InputError(path, "", found, "a YAML file is needed here", cure) from error
-    except (yaml.YAMLError, NotPlain) as error:
-        mark = getattr(error, "problem_mark", None) or getattr(error, "mark", None)
+    except NotPlain as error:
+        place = f"line {error.mark.line + 1}, column {error.mark.column + 1}"
+        rule = "a configuration is one document of plain values"
+        raise InputError(path, place, error.problem, rule, error.cure) from error
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
         place = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
         problem = getattr(error, "problem", None) or "it can't be parsed"
         raise InputError(path, place, problem, "this must be valid YAML", "Check indentation and colons.") from error

@@ -31,11 +31,11 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 class NotPlain(ValueError):
-    """Something that a configuration can't hold: what, and at which mark of the text."""
+    """Something that a configuration can't hold: what, at which mark of the text, and how to mend it."""
 
-    def __init__(self, problem: str, mark: Any) -> None:
+    def __init__(self, problem: str, mark: Any, cure: str = "") -> None:
         super().__init__(problem)
-        self.problem, self.mark = problem, mark
+        self.problem, self.mark, self.cure = problem, mark, cure
 
 
 @dataclass
@@ -118,7 +118,7 @@ class _Reading:
     def _add(self, value: Any, size: int, mark: Any) -> None:
         if not self._open:
             if self.documents:
-                raise NotPlain("a second document", mark)
+                raise NotPlain("a second document", mark, "Leave out the line `---` and what follows it.")
             self.documents.append(value)
             return
         into = self._open[-1]
@@ -134,7 +134,7 @@ class _Reading:
             if not isinstance(value, Hashable):
                 raise NotPlain(f"the key {str(value)[:60]}", mark)
             if value is not _MERGE and value in into.value:
-                raise NotPlain(f"the key {value!r} twice", mark)
+                raise NotPlain(f"the key {value!r} twice", mark, "Leave one of them out.")
             if len(into.value) >= MOST_KEYS:
                 raise NotPlain(f"more than {MOST_KEYS} keys of one mapping", mark)
             into.key, into.has_key = value, True
@@ -170,6 +170,9 @@ class _Reading:
         construct = self._constructor.yaml_constructors.get(tag) if tag in _PLAIN else None
         if construct is None or tag == f"{_TAG}str":  # dates stay as they are written
             return event.value
+        if ":" in event.value:  # 19:10 is 1150 to YAML 1.1, which counts hours and minutes so
+            cure = "A number has a point, 19.10; words and times of day stand in quotes."
+            raise NotPlain(f"{event.value[:60]}, neither a number nor a word", event.start_mark, cure)
         if len(event.value) > LONGEST_NUMBER:
             raise NotPlain(f"a number of {len(event.value)} digits", event.start_mark)
         try:
@@ -183,4 +186,4 @@ class _Reading:
 
 def _check_tag(event: Any) -> None:
     if event.tag is not None and event.tag != "!" and event.tag not in _PLAIN:
-        raise NotPlain(f"the tag {event.tag}", event.start_mark)
+        raise NotPlain(f"the tag {event.tag}", event.start_mark, "Leave out the word that begins with `!`.")

@@ -180,7 +180,8 @@ def too_short(motions: Motions) -> InputError | None:
         return None
     found = f"no motion without gaps that is longer than {longest:.3g} s"
     rule = f"more than {FILTER.shortest_s:g} s are needed, of which {FILTER.edge_s:g} s at either end take no part"
-    return InputError(motions.source, "column time_s", found, rule, "Record ten seconds or more.")
+    cure = f"Is it in seconds? From sample to sample it goes on by {period:.2g}. Record ten seconds or more."
+    return InputError(motions.source, "column time_s", found, rule, cure)
 
 
 def refuse_few(layout: TorqueLayout, rows: int, source: str) -> None:

@@ -11,10 +11,10 @@ only where that is said (`listed`, and the aim for ambiguous worlds).
 **Exact.** A set is exact if every concealed effect has an acceptable name and nothing else is said; an `unknown`
 beside them makes it inexact, too.
 
-**Minor.** On most arms a name is a name, minor or not: a wrong minor name makes a set inexact. `exact_story` is the
-same without the wrong minor ones. Arms as real ones are have small effects everywhere, which the truth lists as minor:
-naming one of those is right, leaving it out is right, too; their set is exact if the effect that dominates is named
-and nothing that isn't concealed.
+**Minor.** On most arms a name is a name, minor or not: a wrong minor name makes a set inexact. "Exact, minor names
+aside" is the same without the wrong minor ones. Arms as real ones are have small effects everywhere, which the truth
+lists as minor: naming one of those is right, leaving it out is right, too; their set is exact if the effect that
+dominates is named and nothing that isn't concealed.
 
 **Rough arms** have small errors of every kind, all of them true names (`minor`), and break what a diagnosis assumes;
 upon that, no to three causes stand out. The answer is right if every cause is named, the largest name (constant

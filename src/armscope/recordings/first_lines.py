@@ -8,6 +8,7 @@ import zlib
 from collections.abc import Sequence
 from pathlib import Path
 
+from armscope.core.streams import at_hand
 from armscope.recordings.constants import PIECES
 from armscope.recordings.opening import GZIP, open_text
 
@@ -17,7 +18,7 @@ DRIVE_COLUMN = r"tau[1-9]\d*_nm|f[1-9]\d*_n|current[1-9]\d*_a"
 def estimated_rows(path: Path) -> int:
     """About how many rows a table (CSV, gzipped or not) has; 0 where nothing can be read, which its reader will say."""
     try:
-        with path.open("rb") as stream:
+        with at_hand(path).open("rb") as stream:
             packed = stream.read(len(GZIP)) == GZIP
             stream.seek(-4 if packed else 0, 2)
             size = int.from_bytes(stream.read(4), "little") if packed else stream.tell()

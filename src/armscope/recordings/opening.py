@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import IO, cast
 
 from armscope.core.inputs import InputError, note_read, unreadable, why_unreadable
+from armscope.core.streams import at_hand
 from armscope.recordings.constants import PIECES
 
 GZIP = b"\x1f\x8b"
@@ -34,11 +35,11 @@ def start_of(path: Path, what: str) -> bytes:
     """
     note_read(path)
     try:
-        with path.open("rb") as stream:
+        with at_hand(path).open("rb") as stream:
             start = stream.read(PIECES.signature)
         if start.startswith(GZIP):
             _refuse_bombs(path, what)
-            with gzip.open(path) as packed:
+            with gzip.open(at_hand(path)) as packed:
                 start = packed.read(PIECES.signature)
     except IsADirectoryError as error:
         found, cure = unreadable(path, error, (".csv", ".csv.gz"))
@@ -51,7 +52,7 @@ def start_of(path: Path, what: str) -> bytes:
 def _unpacks_to_more(path: Path, size: int) -> bool:
     """Whether a gzipped file holds more bytes than ``size``; nothing of it is kept."""
     count = 0
-    with gzip.open(path) as stream:
+    with gzip.open(at_hand(path)) as stream:
         while count <= size and (piece := stream.read(PIECES.unpacked_at_once)):
             count += len(piece)
     return count > size
@@ -59,9 +60,9 @@ def _unpacks_to_more(path: Path, size: int) -> bool:
 
 def _refuse_bombs(path: Path, what: str) -> None:
     """A few bytes that would swell into all memory; of a file that was cut off, only what it holds counts."""
-    packed = path.stat().st_size
+    packed = at_hand(path).stat().st_size
     most = PIECES.unpacked * packed
-    with path.open("rb") as stream:
+    with at_hand(path).open("rb") as stream:
         stream.seek(-min(4, packed), os.SEEK_END)
         unpacked = int.from_bytes(stream.read(4), "little")
     if unpacked > most and _unpacks_to_more(path, most):
@@ -110,6 +111,7 @@ def open_text(path: Path, encoding: str) -> IO[str]:
     """A text file, unpacked where its content is gzipped; a byte-order mark is no part of UTF-8 text."""
     if codecs.lookup(encoding).name == "utf-8":
         encoding = "utf-8-sig"
+    path = at_hand(path)
     with path.open("rb") as stream:
         packed = stream.read(len(GZIP)) == GZIP
     opener = gzip.open if packed else open
@@ -127,6 +129,7 @@ def undecodable(path: Path, encoding: str, error: UnicodeError) -> tuple[str, st
     Returns:
         Place and content.
     """
+    path = at_hand(path)
     with path.open("rb") as stream:
         packed = stream.read(len(GZIP)) == GZIP
     with gzip.open(path) if packed else path.open("rb") as lines:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from armscope.core.inputs import InputError, why_unreadable
 from armscope.core.parallel import each_piece
 from armscope.core.plainyaml import CONTROL
+from armscope.core.streams import at_hand, pipes_kept
 from armscope.recordings.constants import PIECES
 from armscope.recordings.opening import GZIP, open_text, refuse_other_than_text, start_of, undecodable
 from armscope.recordings.other_formats import what_it_is
@@ -42,6 +43,11 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
     Raises:
         InputError: it is no such table.
     """
+    with pipes_kept():
+        return _table(path, check)
+
+
+def _table(path: Path, check: Callable[[list[str]], object]) -> pd.DataFrame:
     refuse_other_than_text(path, start_of(path, "a recordings table (CSV)"), "utf-8", "Save it as UTF-8.")
     header, counts, pieces = _shape(path)
     if not header:
@@ -149,6 +155,7 @@ def _shape(path: Path) -> tuple[list[str] | None, list[int], list[Piece]]:
 
 def _pieces(path: Path) -> list[Piece]:
     """A file in pieces of whole lines; none of a gzipped one, which can only be read from its start."""
+    path = at_hand(path)
     size, ends = path.stat().st_size, [0]
     with path.open("rb") as stream:
         if stream.read(len(GZIP)) == GZIP:
@@ -161,7 +168,7 @@ def _pieces(path: Path) -> list[Piece]:
 
 
 def _lines(path: Path, piece: Piece) -> bytes:
-    with path.open("rb") as stream:
+    with at_hand(path).open("rb") as stream:
         stream.seek(piece[0])
         lines = stream.read(piece[1] - piece[0])
     return lines.removeprefix(codecs.BOM_UTF8) if piece[0] == 0 else lines

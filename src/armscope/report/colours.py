@@ -6,6 +6,7 @@ A drawing names a variable of the page's style sheet and, for readers outside it
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal, NamedTuple
 
 SHARES = (
     "#fffbf0", "#fcecae", "#fed89a", "#fec488", "#feb27a", "#fe9d6c", "#fc8a62", "#f8765c", "#f2645c", "#e85362",
@@ -21,8 +22,18 @@ BEFORE, AFTER, GOOD = "var(--before, #d55e00)", "var(--after, #0072b2)", "var(--
 PALE, GAIN, LOSS, OTHERS = (
     "var(--pale, #cfe6f5)", "var(--gain, #56b4e9)", "var(--loss, #e69f00)", "var(--others, #c9cfd5)",
 )  # fmt: skip
+MEASURED = "var(--measured, #a9b2ba)"
+"""A broad band below thin lines: they are seen on it, on light and on dark pages."""
 NOTHING = "#e4e8ec"
 """A place without a share, where a variable can't be named."""
+
+
+class Key(NamedTuple):
+    """What a colour of a drawing stands for, told in the colour itself."""
+
+    colour: str
+    words: str
+    look: Literal["", "wide", "dashed"] = ""
 
 
 def share_level(part: float) -> int:

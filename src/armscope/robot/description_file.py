@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import yaml
 
-from armscope.core.inputs import InputError, load
+from armscope.core.inputs import InputError, read_keys, validate
 from armscope.robot.constants import ARMS, GUESSES
 from armscope.robot.description import RobotDescription
 from armscope.robot.library import is_nominal, nominal_description
@@ -31,7 +31,20 @@ def load_description(path: Path | str) -> RobotDescription:
         return describe_urdf(path)
     if not Path(path).exists() and is_nominal(str(path)):
         return nominal_description(str(path))
-    description = load(RobotDescription, path)
+    return described(read_keys(path), path)
+
+
+def described(content: Any, path: Path | str) -> RobotDescription:
+    """A description by the content of a robot.yaml.
+
+    Args:
+        content: as read from YAML.
+        path: of the file, from which its URDF is looked for.
+
+    Raises:
+        InputError: as `load_description`.
+    """
+    description = validate(RobotDescription, content, path)
     _refuse_other_units(description, path)
     if description.urdf is not None:
         urdf = Path(path).parent / description.urdf

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
 from collections import Counter
 
@@ -79,6 +80,7 @@ def _check_joint(path: str, joint: ET.Element) -> None:
         for key, words in () if (element := joint.find(tag)) is None else element.items():
             if key in keys:
                 _numbers(path, f"{place}, {tag} {key}", words, 1)
+    _check_range(path, joint)
     if kind in ("revolute", "prismatic"):
         limit = joint.find("limit")
         for key in ("effort", "velocity"):
@@ -86,6 +88,26 @@ def _check_joint(path: str, joint: ET.Element) -> None:
                 rule = f'a {kind} joint needs <limit lower="..." upper="..." effort="..." velocity="..."/>'
                 cure = "A joint that turns without end is `continuous`." if kind == "revolute" else ""
                 raise InputError(path, place, "no <limit>" if limit is None else f"no {key} in <limit>", rule, cure)
+
+
+def _check_range(path: str, joint: ET.Element) -> None:
+    """A joint's range is of radians and in order; without ends, or infinite, it is not stated."""
+    kind, limit = joint.get("type"), joint.find("limit")
+    if limit is None or kind not in ("revolute", "prismatic"):
+        return
+    place, most = f"joint {joint.get('name')}, limit", math.radians(ARMS.degrees)
+    words = {key: limit.get(key, "0") for key in ("lower", "upper")}
+    ends = {key: float(word) for key, word in words.items()}
+    for key, end in ends.items() if kind == "revolute" else ():
+        if math.isfinite(end) and abs(end) > most:
+            rule = f"a joint turns by {most:.4g} rad at most, two turns, either way"
+            cure = "A joint that turns without end is `continuous`."
+            if abs(end) <= ARMS.degrees:
+                cure = f"URDFs are in radians: {words[key]} degrees are {math.radians(end):.6g}. " + cure
+            raise InputError(path, f"{place} {key}", words[key], rule, cure)
+    if ends["lower"] > ends["upper"]:
+        found = f"lower {words['lower']}, upper {words['upper']}"
+        raise InputError(path, place, found, "lower is not above upper", "Exchange them.")
 
 
 def _check_mass(path: str, link: ET.Element) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from armscope.core.inputs import InputError, nearest, note_read
+from armscope.core.streams import at_hand
 from armscope.robot.constants import ARMS, PASTED
 from armscope.robot.urdf_checks import refuse_contradictions
 
@@ -31,7 +32,7 @@ class GuessedChain(NamedTuple):
 def is_xml(path: Path | str) -> bool:
     """Whether a file that is there begins as XML does."""
     try:
-        with open(path, "rb") as stream:
+        with at_hand(path).open("rb") as stream:
             return stream.read(PASTED.start).lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<")
     except OSError:
         return False
@@ -58,7 +59,7 @@ def root_of(path: str) -> ET.Element:
 def _parsed(path: str) -> ET.Element:
     note_read(path)
     try:
-        content = Path(path).read_bytes()
+        content = at_hand(path).read_bytes()
     except OSError as error:
         raise InputError(path, "", "no readable file", "a URDF is needed here", error.strerror or "") from error
     try:

@@ -294,4 +294,5 @@ def _cannot_tell(verdict: Diagnosis) -> str:
     poses = verdict.next_poses
     further = 0 if poses is None or not poses.settle else len(poses.motor_angles)
     settle = f"; {spelled(further)} further poses would settle it" if further else ""
-    return f"Cannot tell: {uncapitalised(why)}{settle}."
+    told = f"Cannot tell: {uncapitalised(why)}{settle}"
+    return told if told.endswith("?") else f"{told}."

@@ -14,6 +14,7 @@ import scipy.io
 from scipy.io.matlab import MatReadError
 
 from armscope.core.inputs import InputError, nearest, why_unreadable
+from armscope.core.streams import at_hand
 from armscope.recordings.importing.constants import LIMITS
 from armscope.recordings.importing.formats import CellsFormat, Format, MatlabFormat, TextFormat, WorkbookFormat
 from armscope.recordings.importing.rawrows import MatrixRows, RawRows, TextRows
@@ -168,7 +169,7 @@ def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
         InputError: no such file or variable, several to choose from, or not a real matrix.
     """
     try:
-        content = scipy.io.loadmat(path)
+        content = scipy.io.loadmat(at_hand(path))
     except NotImplementedError as error:  # what scipy says of version 7.3, which is HDF5
         cure = "Save it with -v7 in MATLAB."
         raise InputError(path, "", "a MATLAB 7.3 file", "MATLAB files up to version 7.2 are read", cure) from error

@@ -12,6 +12,7 @@ from typing import Any
 from xml.etree.ElementTree import ParseError
 
 from armscope.core.inputs import InputError, nearest
+from armscope.core.streams import at_hand
 from armscope.recordings.constants import PIECES
 from armscope.recordings.opening import GZIP
 
@@ -82,7 +83,7 @@ def _word(cell: object, decimal: str) -> str:
 def _opened(path: Path) -> Any:
     import openpyxl
 
-    content = path.read_bytes()
+    content = at_hand(path).read_bytes()
     if content.startswith(GZIP):
         content = gzip.decompress(content)
     cure = "Save the sheet as CSV."

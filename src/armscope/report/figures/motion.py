@@ -10,7 +10,7 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.library.laws import Law
 from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
-from armscope.report.colours import AFTER, BEFORE, INK, OUTLINE, QUIET
+from armscope.report.colours import AFTER, BEFORE, MEASURED, OUTLINE, QUIET, Key
 from armscope.report.figures.along_joints import running_mean
 from armscope.report.figures.effect_curve import DrawnCurve, draw_curves
 from armscope.report.motion_subject import MotionSubject, liveliest_piece
@@ -27,8 +27,11 @@ FEW = 2
 MOST_ROWS, MOST_DOTS = 450, 500
 BEYOND = 1.6
 """A simulated torque is drawn up to so many times the measured ones' range."""
-Key = tuple[str, str]
-"""A colour and what it stands for."""
+DASH = "5 4"
+TRACE = (Key(MEASURED, "measured", "wide"), Key(BEFORE, "as stated", "dashed"), Key(AFTER, "corrected"))
+LEFT = (Key(BEFORE, "friction only"), Key(AFTER, "with causes"))
+FRICTION = (Key(QUIET, "rows"), Key(AFTER, "model"))
+"""What the colours of each kind of picture stand for."""
 
 
 def trace_figures(subject: MotionSubject) -> Iterator[Drawn]:
@@ -38,7 +41,7 @@ def trace_figures(subject: MotionSubject) -> Iterator[Drawn]:
     wide = _wide(subject)
     for joint in range(subject.arm.n_motors):
         lines = [(each[piece, joint], colour, width) for each, colour, width in (
-            (part.measured, INK, 3.2), (part.stated, BEFORE, 1.4), (part.model, AFTER, 1.6),
+            (part.measured, MEASURED, 5.5), (part.stated, BEFORE, 1.4), (part.model, AFTER, 1.6),
         )]  # fmt: skip
         yield Drawn(f"trace_{joint + 1}", draw_trace(f"joint {joint + 1}", subject.unit(joint), time, lines, wide))
 
@@ -75,10 +78,9 @@ def draw_trace(
     )
     panel = _panel(drawing, wide, (float(time[0]), float(time[-1])), _range(shown))
     panel.frame("", "time (s)", f"torque ({unit})")
-    for values, colour, width in lines:
-        drawing.line(panel.at(time, values), colour, width)
-    keys = ((INK, "measured"), (BEFORE, "as stated"), (AFTER, "corrected"))
-    _head(drawing, title, keys if wide >= WIDE else ())
+    for (values, colour, width), key in zip(lines, TRACE, strict=True):
+        drawing.line(panel.at(time, values), colour, width, dash=DASH if key.look == "dashed" else "")
+    _head(drawing, title, TRACE if wide >= WIDE else ())
     return drawing
 
 
@@ -107,7 +109,7 @@ def friction_figures(subject: MotionSubject) -> Iterator[Drawn]:
 
 
 def draw_friction(
-    title: str, cloud: tuple[Array, Array], curve: tuple[Array, Array], labels: Key, wide: float = WIDE
+    title: str, cloud: tuple[Array, Array], curve: tuple[Array, Array], labels: tuple[str, str], wide: float = WIDE
 ) -> Drawing:
     """A cloud of friction over speed, and the model's curve.
 
@@ -129,7 +131,7 @@ def draw_friction(
         drawing.line(panel.at(*ends), OUTLINE, 0.8, -1)
     drawing.dots(panel.at(*cloud), QUIET, 2.4, 0.45)
     drawing.line(panel.at(*curve), AFTER, 2.4, 1)
-    _head(drawing, title, ((QUIET, "rows"), (AFTER, "model")))
+    _head(drawing, title, FRICTION)
     return drawing
 
 
@@ -150,10 +152,10 @@ def left_figures(subject: MotionSubject) -> Iterator[Drawn]:
             drawing = Drawing(SMALL, HIGH, f"What is left of joint {joint + 1}'s torque over its {name}")
             panel = _panel(drawing, SMALL, (float(at.min()), float(at.max()) + 1e-9), (-limit, limit))
             panel.frame("", f"{name} ({of})", f"left ({subject.unit(joint)})")
-            for values, colour in ((before, BEFORE), (after, AFTER)):
-                drawing.dots(panel.at(at[few], values[few]), colour, 2.2, 0.45)
-                drawing.line(panel.at(*running_mean(at, values)), colour, 2.2, 1)
-            _head(drawing, f"joint {joint + 1}", ((BEFORE, "friction only"), (AFTER, "with causes")))
+            for values, key in zip((before, after), LEFT, strict=True):
+                drawing.dots(panel.at(at[few], values[few]), key.colour, 2.2, 0.45)
+                drawing.line(panel.at(*running_mean(at, values)), key.colour, 2.2, 1)
+            _head(drawing, f"joint {joint + 1}", LEFT)
             yield Drawn(f"left_{joint + 1}_{name if name != 'position' else 'angle'}", drawing)
 
 
@@ -208,8 +210,9 @@ def _head(drawing: Drawing, title: str, keys: Sequence[Key]) -> None:
     """The joint's name on the left, what the colours stand for on the right."""
     drawing.text((62, 12), title, size=13, weight="bold")
     right = drawing.width - 12
-    for colour, words in reversed(keys):
+    for colour, words, look in reversed(keys):
         drawing.text((right, 12), words, size=12, anchor="end")
         right -= 7.4 * len(words) + 6
-        drawing.line(np.array([[right - 16, 12], [right, 12]]), colour, 2.8)
+        width, dash = (5.5, "") if look == "wide" else (2.8, DASH if look == "dashed" else "")
+        drawing.line(np.array([[right - 16, 12], [right, 12]]), colour, width, dash=dash)
         right -= 30

@@ -8,7 +8,7 @@ import numpy as np
 
 from armscope.core.sampling import spread_evenly
 from armscope.motion.links.judgement import JudgedTwist
-from armscope.report.colours import AFTER, QUIET
+from armscope.report.colours import AFTER, QUIET, Key
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
@@ -16,6 +16,8 @@ from armscope.report.svg import Drawing, Panel
 WIDE, HIGH = 500.0, 230.0
 """Of a picture, px."""
 MOST_DOTS = 600
+TWIST = (Key(QUIET, "as recorded"), Key(AFTER, "by the causes"))
+"""What the colours of the dots stand for."""
 
 
 def twist_figures(subject: MotionSubject) -> Iterator[Drawn]:
@@ -46,5 +48,5 @@ def draw_twist(twist: JudgedTwist, torque_unit: str) -> Drawing:
     panel.frame("", f"torque that the links ask of the joint ({torque_unit})", f"link less motor ({unit})")
     drawing.dots(panel.at(rows.torque[few], measured), QUIET, 2.4, 0.45)
     drawing.dots(panel.at(rows.torque[few], modelled), AFTER, 2.0, 0.8)
-    drawing.text((62, 12), f"{twist.side.joint}: grey as recorded, blue by the causes", size=13, weight="bold")
+    drawing.text((62, 12), twist.side.joint, size=13, weight="bold")
     return drawing

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.report.colours import AFTER, BEFORE, GAIN, GOOD, INK, LINE, LOSS, OTHERS, PALE, QUIET
+from armscope.report.colours import AFTER, BEFORE, GAIN, GOOD, INK, LINE, LOSS, OTHERS, PALE, QUIET, Key
 from armscope.report.sectioning import Drawn
 from armscope.report.subject import Subject
 from armscope.report.svg import LETTER, Drawing, number, ticks
@@ -22,6 +22,12 @@ NARROW, WITH_NAME = 480.0, 45.0
 """Of a picture for telephones, and of a row whose name stands above its bar, px."""
 BEYOND = 1.6
 """Other models' errors are drawn up to so many times the largest of the steps."""
+STEPS = (
+    Key(PALE, "what remains", "wide"), Key(GAIN, "what the step took away", "wide"), Key(LOSS, "what it added", "wide"),
+    Key(AFTER, "what remains at the end", "wide"),
+)  # fmt: skip
+OTHER_MODELS = Key(OTHERS, "other models", "wide")
+"""What the colours of the bars stand for."""
 
 
 @dataclass(frozen=True)

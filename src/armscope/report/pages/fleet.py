@@ -17,11 +17,12 @@ from armscope.verdict.wording import plain, spelled
 
 TABLE = ["arm", "type", "date", "run", "answer", "before_mm", "after_mm", "headline"]
 IN_WORDS = {
-    "before_mm": "error (mm)", "after_mm": "with the fitted model (mm)", "apart": "robust sigmas from its type",
+    "before_mm": "error of fitted rows (mm)", "after_mm": "with the model (mm)", "apart": "robust sigmas from its type",
     "arms": "arms with it", "of": "of", "median_mm": "median (mm)", "most_mm": "largest (mm)",
     "expected_share": "expected share",
 }  # fmt: skip
 """What columns are called on the page; the CSV files keep their names."""
+CSS_PX_PER_INCH = 96
 
 
 def _in_words(table: pd.DataFrame) -> pd.DataFrame:
@@ -47,8 +48,11 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
         write_table(output / f"{name}.csv", table)
     write_yaml(output / "priors.yaml", priors(often, learned_sizes(members, found)))
     drawn = bool(len(of_causes)) and not of_causes["minor"].all()
+    wide_px = 0.0
     if drawn:
-        save_figure(fleet_figure(of_causes), output / "causes.svg", formats=("svg", "png"))
+        figure = fleet_figure(of_causes)
+        wide_px = CSS_PX_PER_INCH * figure.get_figwidth()
+        save_figure(figure, output / "causes.svg", formats=("svg", "png"))
     write_page(
         output / "report.html",
         "fleet.html.j2",
@@ -58,6 +62,7 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
         repeated=_in_words(often),
         failed=pd.DataFrame(failed.items(), columns=["diagnosis", "why"]),
         figure=output / "causes.svg" if drawn else None,
+        wide_px=round(wide_px),
         comparable=bool((of_arms.groupby("type")["arm"].nunique() >= FLEET.fewest_arms).any()),
         fewest=spelled(FLEET.fewest_arms),
         types=spelled(int(of_arms["type"].nunique())),

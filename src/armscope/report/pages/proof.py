@@ -10,9 +10,19 @@ import pandas as pd
 from armscope.proof import definitions as proof_definitions
 from armscope.proof.rates import NEAR_THRESHOLD
 from armscope.report.html import definitions, share_text, significant, write_page
+from armscope.verdict.wording import plain
 
 TAGS = {"met": "holds", "not met": "fails", "open": "depends", "too few cases": "depends"}
 SHOWN_WRONG = 400
+IN_WORDS = {
+    "estimate": "share", "low": "95 % from", "high": "95 % to", "found": "found as", "fresh": "fresh seeds",
+    "exact_story": "exact, minor names aside", "silent": "no name given", "value": "size",
+    "held_out_close": "held-out error within 5 % of the true model's", "within_5_percent": "share within 5 %",
+    "evidence_nats": "evidence (nats)", "nine_in_ten_below": "nine in ten below", "rms_mm": "RMS (mm)",
+    "price_of_fitting": "price of fitting", "held_out_ratio": "held out / true", "weakest": "weakest / noise",
+    "left_out": "column left out", "failed": "why it failed",
+}  # fmt: skip
+"""What columns are called on the page; the CSV files keep their names."""
 
 
 def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, Any], size: str) -> None:
@@ -35,23 +45,31 @@ def write_proof_page(path: Path, tables: Path, figures: Path, seed: dict[str, An
         seed=seed,
         worlds=worlds,
         fresh=int(worlds["fresh"].sum()),
-        failed=worlds[worlds["failed"].notna()],
+        failed=_in_words(worlds[worlds["failed"].notna()][["world", "category", "failed"]]),
         aims=_aims(read["aims"]),
         tags=TAGS,
         summary=_summary(read["aims"]),
         definitions=definitions(proof_definitions.__doc__ or ""),
-        per_effect=_wide(read["per_effect"], "effect"),
+        per_effect=_in_words(_wide(read["per_effect"], "effect")),
         rough=_rough(read["rough"]),
-        outcomes=_wide(read["outcomes"], "category"),
-        thresholds=read["thresholds"],
-        detection=_detection(read["detection"]),
+        outcomes=_in_words(_wide(read["outcomes"], "category")),
+        thresholds=_in_words(read["thresholds"]),
+        detection=_in_words(_detection(read["detection"])),
         near=NEAR_THRESHOLD,
-        held_out=read["held_out"],
-        evidence=read["evidence"],
-        false_alarms=read["false_alarms"],
+        held_out=_in_words(read["held_out"]),
+        evidence=_in_words(read["evidence"]),
+        false_alarms=_in_words(read["false_alarms"]),
         wrong=_wrong(read["wrong_worlds"]),
         significant=significant,
     )
+
+
+def _in_words(table: pd.DataFrame) -> pd.DataFrame:
+    """A table for people: columns and causes in words."""
+    told = table.assign(effect=table["effect"].map(plain)) if "effect" in table else table
+    if "fresh" in told:
+        told = told.assign(fresh=["yes" if fresh else "no" for fresh in told["fresh"]])
+    return told.rename(columns=IN_WORDS)
 
 
 def _aims(table: pd.DataFrame) -> list[dict[str, Any]]:
@@ -140,4 +158,4 @@ def _detection(table: pd.DataFrame) -> pd.DataFrame:
 def _wrong(table: pd.DataFrame) -> pd.DataFrame:
     """Worlds with a wrong answer, readable."""
     shown = table.drop(columns=[column for column in ("failed",) if table[column].isna().all()])
-    return shown.head(SHOWN_WRONG).rename(columns={"weakest": "weakest / noise", "held_out_ratio": "held out / true"})
+    return _in_words(shown.head(SHOWN_WRONG))

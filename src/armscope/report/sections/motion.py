@@ -16,9 +16,17 @@ from armscope.motion.summary.left_over import left_over, shares_left_over
 from armscope.motion.verdict import JointBackground
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import atlas_map
-from armscope.report.figures.motion import curve_figures, friction_figures, left_figures, trace_figures
+from armscope.report.figures.motion import (
+    FRICTION,
+    LEFT,
+    TRACE,
+    curve_figures,
+    friction_figures,
+    left_figures,
+    trace_figures,
+)
 from armscope.report.figures.twist import twist_figures
-from armscope.report.figures.waterfall import Quantity, draw_waterfall
+from armscope.report.figures.waterfall import STEPS, Quantity, draw_waterfall
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
 from armscope.report.sections.motion_cards import motion_card
@@ -108,7 +116,7 @@ def relative_steps(subject: MotionSubject) -> list[tuple[str, float, float]]:
 def _better(subject: MotionSubject) -> dict[str, Any]:
     names = ["model", "error on held-out motion (%)", "on fitted motion (%)"]
     model = RELATIVE.words(100 * subject.verdict.held_out.model)
-    return {"steps": pd.DataFrame(relative_steps(subject), columns=names), "model": model}
+    return {"steps": pd.DataFrame(relative_steps(subject), columns=names), "model": model, "keys": STEPS}
 
 
 def friction_table(subject: MotionSubject) -> dict[str, Any]:
@@ -124,6 +132,7 @@ def friction_table(subject: MotionSubject) -> dict[str, Any]:
         "not_seen": NOT_SEEN in said,
         "entered_as_0": any(each.startswith("0 (") for each in said),
         "n": len(joints),
+        "keys": FRICTION,
     }
 
 
@@ -157,9 +166,13 @@ def _below_zero(joint: JointBackground) -> bool:
     return any(each.name == "inertia" and each.interval[1] < 0 for each in joint.parameters)
 
 
+def _torque(subject: MotionSubject) -> dict[str, Any]:
+    return {"n": subject.arm.n_motors, "keys": TRACE}
+
+
 def _left(subject: MotionSubject) -> dict[str, Any]:
     return {"moving": [joint + 1 for joint in subject.moving], "by_joint": subject.verdict.held_out.by_joint,
-            "units": [subject.unit(joint) for joint in range(subject.arm.n_motors)]}  # fmt: skip
+            "keys": LEFT, "units": [subject.unit(joint) for joint in range(subject.arm.n_motors)]}  # fmt: skip
 
 
 def _prepared(subject: MotionSubject) -> dict[str, Any]:
@@ -182,7 +195,7 @@ MOTION_SECTIONS: tuple[Motion, ...] = (
         (twist_figures,),
         applies=lambda verdict: bool(verdict.links),
     ),
-    Motion("torque", "Torque", "Torque on motion that took no part", lambda s: {"n": s.arm.n_motors}, (trace_figures,)),
+    Motion("torque", "Torque", "Torque on motion that took no part", _torque, (trace_figures,)),
     Motion("friction", "Friction", "Friction and rotors of every joint", friction_table, (friction_figures,)),
     Motion("validation", "Validation", "How much better the model predicts", _better, (waterfall_of_motion,)),
     Motion(

@@ -7,6 +7,7 @@ from typing import Any
 from armscope.core.numerals import size_of
 from armscope.motion.library.clauses import amount
 from armscope.motion.verdict import LinkSide
+from armscope.report.figures.twist import TWIST
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sections.motion_cards import motion_card
 from armscope.verdict.wording import percent
@@ -14,7 +15,7 @@ from armscope.verdict.wording import percent
 
 def links_of_motion(subject: MotionSubject) -> dict[str, Any]:
     """Joint by joint: how link and motor lie, and a card for each cause."""
-    return {"sides": [_side(side) for side in subject.verdict.links]}
+    return {"sides": [_side(side) for side in subject.verdict.links], "keys": TWIST}
 
 
 def _side(side: LinkSide) -> dict[str, Any]:

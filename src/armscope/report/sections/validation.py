@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.numerals import rounded
-from armscope.report.figures.waterfall import waterfall_figure, waterfall_steps
+from armscope.report.figures.waterfall import OTHER_MODELS, STEPS, waterfall_figure, waterfall_steps
 from armscope.report.sectioning import Section
 from armscope.report.subject import Subject
 from armscope.verdict.schema import Verdict
@@ -66,7 +66,8 @@ def _context(subject: Subject) -> dict[str, Any]:
     steps = [(s.label, s.held_out_mm, s.spread_mm, s.fitted_mm) for s in waterfall_steps(subject.verdict)]
     steps += [(f"for comparison: {name}", rms, np.nan, np.nan) for name, rms in subject.references]
     names = ["model", "held-out RMS (mm)", "its spread over the folds (mm)", "RMS on the fitted rows (mm)"]
-    return {"improvement": improvement(subject.verdict), "steps": pd.DataFrame(steps, columns=names)}
+    keys = (*STEPS, OTHER_MODELS) if subject.references else STEPS
+    return {"improvement": improvement(subject.verdict), "steps": pd.DataFrame(steps, columns=names), "keys": keys}
 
 
 TITLE = "How much better the model predicts"
