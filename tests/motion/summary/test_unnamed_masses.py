@@ -15,7 +15,7 @@ from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary import tenable
-from armscope.motion.summary.unnamed_masses import odds_of_name
+from armscope.motion.summary.unnamed_masses import all_held_alike, likeliest_name, odds_of_name, off_without_a_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 from tests.motion.moving import ROBOT, moved, robot
 from tests.motion.summary.test_tenable import STATED
@@ -73,7 +73,7 @@ def test_what_the_last_link_weighs_does_not_make_all_others_doubtful() -> None:
 @pytest.mark.long
 def test_a_link_whose_centre_is_elsewhere_is_not_told_as_heavier() -> None:
     """Beside masses that are held as the other links' it would be: by hundreds of nats."""
-    selected = with_the_second(com_mm=[-130, 30, 50], inertia_kg_m2=[0.06, 0.2, 0.16, 0.01, 0.0, 0.02])
+    selected = all_held_alike(with_the_second(com_mm=[-130, 30, 50], inertia_kg_m2=[0.06, 0.2, 0.16, 0.01, 0.0, 0.02]))
     mass = placed(selected, "link_mass", "link 2")
     heavier = named(selected, mass)
     held = dataclasses.replace(heavier.best, background=(1, *heavier.best.background[1:]))
@@ -111,3 +111,20 @@ def test_a_name_that_is_all_a_link_can_say_has_no_rival_without_a_name() -> None
     assert odds_of_name(alone, inertia) > 10 * INDISTINGUISHABLE_NATS
     assert {selected.rows.layout.placed[n].location for n in selected.best.candidates} <= {"link 1", "joint 1"}
     assert selected.best.candidates
+
+
+@pytest.mark.long
+def test_a_link_far_off_without_a_name_is_fitted_as_far_off_as_it_is() -> None:
+    """By the share of all links gains and friction took it: right on these paths, 24 % of the torque off on another."""
+    selected = with_the_second(inertia_kg_m2=[3.0, 3.0, 3.0, 0, 0, 0])
+    inertia = placed(selected, "link_inertia", "link 2")
+    alone = named(selected, inertia)
+    unnamed = off_without_a_name(alone, inertia)
+    assert inertia not in unnamed.best.candidates
+    assert unnamed.best.log_posterior > alone.best.log_posterior - 10 * INDISTINGUISHABLE_NATS
+    kept = Search.on(alone.problem).evaluated((), alone.best)
+    assert kept.log_posterior < unnamed.best.log_posterior - 30 * INDISTINGUISHABLE_NATS
+    # asked once more, the name competes with one share for all links
+    found = likeliest_name(unnamed)
+    assert found is not None
+    assert found[1] == inertia

@@ -36,7 +36,7 @@ from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.in_proportion import rather_in_proportion
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
-from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name
+from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name, off_without_a_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
@@ -238,6 +238,18 @@ def _untold(selected: SelectedCauses, number: int, agree: bool | None) -> bool:
     return cause is catalogue.ROCKING_BASE or (agree is None and cause in CHANGES)
 
 
+def _without_the_name(selected: SelectedCauses, number: int) -> SelectedCauses:
+    """The selection without a name of masses; where the share of all links can't say what it said, by a share of its
+    own links, which made it no surer than none.
+    """
+    kept = [effect for effect in selected.best.chosen if effect.candidate != number]
+    by_all = _alone(selected, kept)
+    if by_all.best.log_posterior > selected.best.log_posterior - INDISTINGUISHABLE_NATS:
+        return by_all
+    by_own = off_without_a_name(selected, number)
+    return max(_alone(by_own, by_own.best.chosen), by_all, key=lambda each: each.best.log_posterior)
+
+
 def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """The selection without names of masses that are hardly likelier than none, the least of them first.
 
@@ -251,8 +263,7 @@ def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
         if odds >= INDISTINGUISHABLE_NATS:
             return selected
         gone.add(least)
-        kept = [effect for effect in selected.best.chosen if effect.candidate != least]
-        selected = at_own_gain(_alone(selected, kept))
+        selected = at_own_gain(_without_the_name(selected, least))
         another = likeliest_name(selected, gone)
         if another is not None and another[2] >= INDISTINGUISHABLE_NATS:
             instead = at_own_gain(another[0])

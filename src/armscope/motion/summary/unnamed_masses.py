@@ -48,6 +48,43 @@ def odds_of_name(selected: SelectedCauses, number: int) -> float:
     return named - unnamed
 
 
+def off_without_a_name(selected: SelectedCauses, number: int) -> SelectedCauses:
+    """The selection without a name of masses, whose links are off by as much as the rows say without it.
+
+    Held by the share of all links, what the name said would be left to gains and friction, which take it on the paths
+    that were recorded, and on no other.
+
+    Args:
+        selected: a selection.
+        number: of a chosen cause that is made of inertial parameters.
+
+    Returns:
+        The same with a share of their own for its links, where they ask for a larger one.
+    """
+    best, own = selected.best, _own(selected, number)
+    kept = tuple(effect for effect in best.chosen if effect.candidate != number)
+    _, sizes = _at_best_shares(selected, _with_own_share(selected, own), kept, not _says_all(selected, number, own))
+    masses = [family.name for family in selected.space.families].index("masses")
+    larger = SHARES[sizes[-1]] > SHARES[sizes[masses]]
+    problem = _with_larger_share(selected, masses, own, (sizes[masses], sizes[-1])) if larger else selected.problem
+    background = (*sizes[:masses], max(sizes[masses], 1 if larger else 0), *sizes[masses + 1 : -1])
+    found = evaluate(problem, kept, background, best.noise)
+    return replace(selected, space=problem.space, problem=problem, best=found)
+
+
+def _with_larger_share(selected: SelectedCauses, masses: int, own: Indices, sizes: tuple[int, int]) -> Problem:
+    """The problem in which links of a name have a larger share in the family of masses than all others; these, none."""
+    space, (of_all, of_own) = selected.problem.space, sizes
+    family = space.families[masses]
+    assert isinstance(family, ToleranceFamily)
+    its = np.isin(family.columns, own)
+    if of_all == 0:
+        family, its = family.without(family.columns[~its]), its[its]
+    tolerance = np.where(its, SHARES[of_own] / SHARES[max(of_all, 1)], 1.0) * family.tolerance
+    families = (*space.families[:masses], replace(family, tolerance=tolerance), *space.families[masses + 1 :])
+    return replace(selected.problem, space=replace(space, families=families))
+
+
 def is_of_masses(placed: PlacedCause) -> bool:
     """Whether a cause is masses that are other than stated in all runs, as the background of masses has them, too."""
     return placed.inertial is not None and not placed.runs
@@ -63,6 +100,7 @@ def likeliest_name(selected: SelectedCauses, without: Collection[int] = ()) -> t
     Returns:
         The selection with it, its number, and by how many nats it is likelier than none; None where there is none.
     """
+    selected = all_held_alike(selected)
     search, placed = Search.on(selected.problem), selected.rows.layout.placed
     others = [n for n, cause in enumerate(placed) if n in without or not is_of_masses(cause)]
     families = [family.name for family in selected.space.families]
@@ -78,6 +116,19 @@ def likeliest_name(selected: SelectedCauses, without: Collection[int] = ()) -> t
     found = replace(selected, best=best)
     nats = odds_of_name(found, number)
     return (found, number, nats) if nats > 0 else None
+
+
+def all_held_alike(selected: SelectedCauses) -> SelectedCauses:
+    """The selection with one share for all links; itself where it has one."""
+    space, masses = selected.problem.space, [f.name for f in selected.space.families].index("masses")
+    family = space.families[masses]
+    assert isinstance(family, ToleranceFamily)
+    inertial = selected.rows.layout.inertial
+    if len(family.columns) == len(inertial) and np.all(family.tolerance == family.tolerance[0]):
+        return selected
+    alike = replace(family, columns=inertial, tolerance=np.ones(len(inertial)))
+    space = replace(space, families=(*space.families[:masses], alike, *space.families[masses + 1 :]))
+    return replace(selected, space=space, problem=replace(selected.problem, space=space))
 
 
 def odds_of_weight(selected: SelectedCauses, number: int) -> float:
