@@ -31,6 +31,7 @@ from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stat
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects, told_as_scatter
+from armscope.diagnosis.summary.stated_load import beside_the_stated_load
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     load_in_question,
@@ -154,7 +155,7 @@ def _summarised(basis: SummaryBasis) -> tuple[dict[int, FoundEffect], list[float
         c.candidate: summarise_effect(basis, c, part, share)
         for c, part, share in zip(chosen, fit.model.parts, shared, strict=True)
     }
-    return found, of_families
+    return beside_the_stated_load(basis.state, basis.search, found), of_families
 
 
 def _validated(
