@@ -36,6 +36,7 @@ from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     load_in_question,
     masses_in_error,
+    noise_in_question,
     rows_apart,
     together,
     too_faint,
@@ -122,7 +123,7 @@ def judge(
         held_out=held_out,
         waterfall=waterfall,
         next_poses=next_poses(state, basis.rivals, rng),
-        notices=(*state.notices, *_carefully(state), *carefully, *told_of_labels(of_rows["suspects"])),
+        notices=(*state.notices, *_carefully(state, unexplained), *carefully, *told_of_labels(of_rows["suspects"])),
     )
     verdict = with_importance(draft, with_weight)
     verdict = replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
@@ -239,10 +240,10 @@ def _answer(
     return "nothing missing", False
 
 
-def _carefully(state: DiagnosisState) -> list[Notice]:
+def _carefully(state: DiagnosisState, unexplained: Unexplained) -> list[Notice]:
     """What the fit itself says against too much trust."""
     implausible = beyond_plausible(state.fit.model.parts)
-    notices = [implausible] if implausible else []
+    notices = [*([implausible] if implausible else []), *noise_in_question(state, unexplained)]
     notices += tool_as_stated(state.fit.model)
     if state.growth is not None:
         away = np.linalg.norm(state.recordings.positions, axis=1)

@@ -161,13 +161,14 @@ def _payload_in_error(search: Search, state: DiagnosisState) -> Alternative | No
 def _in_words(load: StatedLoad, changes: list[float]) -> str:
     if not load.kg:
         return (
-            f"No load at the flange is stated: with {load.off_kg:.3g} kg there this would be about {_other(changes[0])}; "
-            "see what hangs there, and weigh it."
+            f"No load at the flange is stated: with {load.off_kg:.3g} kg there this would be about "
+            f"{_other(changes[0])}; see what hangs there, and weigh it."
         )
     share = f"{100 * load.off_kg / load.kg:.0f} %"
     return (
         f"It holds for the {load.kg:.3g} kg that {load.words}, and these rows can't tell whether that is right: were "
-        f"it {share} more, this would be about {_other(changes[0])}, were it {share} less, {_other(changes[1])}; weigh it."
+        f"it {share} more, this would be about {_other(changes[0])}, were it {share} less, {_other(changes[1])}; "
+        "weigh it."
     )
 
 
