@@ -10,6 +10,7 @@ from armscope.compensation.path import read_path
 from armscope.compensation.physical import FILE, identified_on, save_identified
 from armscope.compensation.predicting import predict_file
 from armscope.core.inputs import InputError
+from armscope.physics.carried_on import carried_on
 from armscope.physics.drift import Pause, base_shift, drift_with_pauses
 from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict
@@ -102,8 +103,32 @@ def test_a_model_that_follows_no_rows_says_nothing_of_ids(jumped, tmp_path):
         lambda table: wander(table, [])[1],
     ],
 )
-def test_what_wanders_in_the_order_of_rows_is_left_out_of_now_as_a_whole(jumped, tmp_path, placed):
+def test_what_wanders_in_the_order_of_rows_stays_as_the_last_row_of_a_run_found_it(jumped, tmp_path, placed):
     """With its pauses, and with the means that are taken from it run by run."""
+    table = replace(jumped[1], run=np.repeat(["a", "b"], [20, 40]))
+    arm = load_arm(EXAMPLE / "robot.yaml")
+    effect = placed(table)
+    part = Part(effect, np.full(len(effect.terms), 1e-2))
+    base = Base(np.eye(3), np.zeros(3))
+    model = carried_on(FittedModel(arm, {"a": base, "b": base}, parts=(part,)), table)
+    save_model(tmp_path / "drift.yaml", model)
+    found, notes = predict_file(tmp_path / "drift.yaml", poses(tmp_path / "poses.csv", table, ids=False))
+    last = np.where(table.run == "a", table.number[19], table.number[59])
+    then = 1e3 * predict(model, replace(table, number=last))
+    np.testing.assert_allclose(found[["x_mm", "y_mm", "z_mm"]], then, atol=1e-6)
+    assert np.abs(then - forward_kinematics(arm, table.motor_angles) * 1e3).max() > 1e-3
+    assert notes[-1:] == ["no ids: what wanders in the order of rows stays as the last row found it"]
+
+
+@pytest.mark.parametrize(
+    "placed",
+    [
+        lambda table: drift_with_pauses([Pause(20.0, "a", 500.0)], 1),
+        lambda table: wander(table, [])[1],
+    ],
+)
+def test_a_file_that_does_not_say_where_a_wander_ended_leaves_it_out_of_now_as_a_whole(jumped, tmp_path, placed):
+    """As files of earlier versions do."""
     table = replace(jumped[1], run=np.repeat(["a", "b"], [20, 40]))
     arm = load_arm(EXAMPLE / "robot.yaml")
     effect = placed(table)
@@ -115,6 +140,18 @@ def test_what_wanders_in_the_order_of_rows_is_left_out_of_now_as_a_whole(jumped,
         found, notes = predict_file(tmp_path / "drift.yaml", poses(tmp_path / "poses.csv", table, ids))
         assert (np.abs(found[["x_mm", "y_mm", "z_mm"]] - nominal).to_numpy().max() > 1e-6) == moved
     assert notes[-1:] == ["no ids: what wanders in the order of rows is left out"]
+
+
+def test_poses_without_a_time_are_told_to_be_of_the_recordings_end(jumped, tmp_path):
+    timed = replace(jumped[1], time=np.linspace(0.0, 7200.0, 60))
+    arm, wave = load_arm(EXAMPLE / "robot.yaml"), wander(timed, [])[0]
+    base = {str(timed.run[0]): Base(np.eye(3), np.zeros(3))}
+    model = FittedModel(arm, base, parts=(Part(wave, np.full(len(wave.terms), 1e-3)),))
+    save_model(tmp_path / "wave.yaml", model)
+    found, notes = predict_file(tmp_path / "wave.yaml", poses(tmp_path / "poses.csv", timed, ids=False))
+    at_the_end = predict(model, replace(timed, time=np.full(60, 7200.0)))
+    np.testing.assert_allclose(found[["x_mm", "y_mm", "z_mm"]], 1e3 * at_the_end, atol=1e-6)
+    assert notes == ["no time_s: what wanders in the course of time stays as at the end of the recordings"]
 
 
 def test_a_path_is_of_now_whatever_its_ids_are(jumped, tmp_path):

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from armscope.physics.registry import effect_named
-from armscope.verdict.doubts import doubt_of, unless_confirmed
+from armscope.verdict.doubts import NEVER_AGAIN, doubt_of, unless_confirmed
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.family_cures import CONFIRM_FIRST
 from tests.report import verdicts
@@ -61,3 +61,15 @@ def test_a_size_that_may_be_zero_is_confirmed_before_anything_is_replaced() -> N
     sure = doubt_of(replace(bearing, parameters=(replace(size, stderr=1e-6),)))
     assert sure
     assert CONFIRM_FIRST not in sure.instruction
+
+
+def test_a_name_that_no_table_drawn_anew_has_is_confirmed_first_though_nothing_else_is_known() -> None:
+    """It was "find out which it is: geometric, around joint 2"."""
+    alone = replace(VAGUE, alternatives=(), title="geometric, around joint 5", inclusion=0.0)
+    doubt = doubt_of(alone)
+    assert doubt
+    assert doubt.instruction.startswith(NEVER_AGAIN)
+    assert "find out which" not in doubt.instruction
+    both = doubt_of(replace(alone, alternatives=(LINK,)))
+    assert both
+    assert both.instruction.startswith(f"{NEVER_AGAIN} First find out which it is")

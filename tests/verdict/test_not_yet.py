@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from armscope.report.pages.diagnosis import write_report
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.not_yet import NOT_YET, curing_only_what_helps
 from armscope.verdict.schema import HeldOut
+from armscope.verdict.sentences import makes_worse
 
 from ..report import verdicts
 
@@ -37,3 +40,14 @@ def test_only_a_model_that_helps_orders_anything(tmp_path, after, orders):
     assert (NOT_YET in report) != orders
     if not orders:
         assert all(effect.confirm in order for effect in verdict.effects), "what to confirm stands there all the same"
+
+
+def test_a_model_that_is_base_and_tool_alone_is_not_worse_than_they_are_by_rounding() -> None:
+    """Of noise alone, with nothing named, it was told that "the model with these names meets the rows worse"."""
+    verdict = verdicts.case(effects=()).verdict
+    before = verdict.residual_before_mm
+    more = before * (1 + 1e-13)
+    same = replace(verdict, residual_after_mm=more, held_out=HeldOut(before, more, 5, "configuration", before, more))
+    assert not makes_worse(same)
+    worse = replace(same, residual_after_mm=1.01 * before, held_out=replace(same.held_out, after=1.2 * before))
+    assert makes_worse(worse)

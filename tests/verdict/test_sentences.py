@@ -228,3 +228,14 @@ def test_the_share_of_a_family_stands_before_its_largest_member_which_has_only_a
 def test_a_doubt_that_asks_ends_with_its_question_mark() -> None:
     asks = Notice("check", "Is it another robot, or is a zero far off? Compare both.")
     assert headline(replace(verdicts.case(effects=(compliance(),)).verdict, notices=(asks,))).count("?.") == 0
+
+
+def test_a_name_that_no_table_drawn_anew_has_does_not_lead() -> None:
+    """ "Link 2 differs from its drawing" led a page on which it was said that 0 % of the tables have this name."""
+    never = found("joint_offset", "joint 3", Parameter("offset", "rad", 1e-3, 2e-5), share=0.5, inclusion=0.0)
+    sure = found("joint_offset", "joint 5", Parameter("offset", "rad", 5e-4, 2e-5), share=0.2)
+    assert cause_in_words("geometric", (never, sure)).startswith("the zero of joint 5")
+    small = Background("geometric", present=True, size=0.4, rms_at_tool_mm=0.4, share=0.1)
+    assert cause_in_words("geometric", (never,), small) == "small errors of geometry in all joints and links"
+    usual = replace(never, inclusion=0.9)
+    assert cause_in_words("geometric", (usual,), small).startswith("the zero of joint 3 is off")

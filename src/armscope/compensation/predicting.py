@@ -121,19 +121,24 @@ def _by_model(fitted: FittedModel, rows: Recordings, identified: Identified | No
 def _of_now(fitted: FittedModel, rows: Recordings) -> list[str]:
     """What is told where a model follows the order of rows: of which rows poses are, by ids or without."""
     from armscope.compensation.physical import drivers_of
+    from armscope.physics.carried_on import NOW
 
+    told = []
+    if "slow wave" in drivers_of(fitted) and (rows.time is None or np.isnan(rows.time).any()):
+        told = ["no time_s: what wanders in the course of time stays as at the end of the recordings"]
     kinds = drivers_of(fitted) & {"after row", "rows", "slow wave of rows"}
     if kinds and np.isfinite(rows.number).all():
         taken = (
             "are taken for rows of the recordings" if _are_numbers(rows) else "are no numbers that rise in every run"
         )
         counted = "" if _are_numbers(rows) else ": the poses are counted as the recordings' rows, from 1"
-        return [f"ids {taken}{counted}; without the column id, poses are of now"]
-    notes = []
+        return [*told, f"ids {taken}{counted}; without the column id, poses are of now"]
+    notes = told
     if "after row" in kinds:
         notes.append("no ids: what jumped at a row of the recordings has jumped; ids of the recordings say otherwise")
     if kinds & {"rows", "slow wave of rows"}:
-        notes.append("no ids: what wanders in the order of rows is left out")
+        stays = "stays as the last row found it" if NOW in drivers_of(fitted) else "is left out"
+        notes.append(f"no ids: what wanders in the order of rows {stays}")
     return notes
 
 

@@ -31,10 +31,12 @@ from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stat
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects, told_as_scatter
+from armscope.diagnosis.summary.stated_load import beside_the_stated_load
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
     load_in_question,
     masses_in_error,
+    noise_in_question,
     rows_apart,
     together,
     too_faint,
@@ -121,7 +123,7 @@ def judge(
         held_out=held_out,
         waterfall=waterfall,
         next_poses=next_poses(state, basis.rivals, rng),
-        notices=(*state.notices, *_carefully(state), *carefully, *told_of_labels(of_rows["suspects"])),
+        notices=(*state.notices, *_carefully(state, unexplained), *carefully, *told_of_labels(of_rows["suspects"])),
     )
     verdict = with_importance(draft, with_weight)
     verdict = replace(verdict, waterfall=_with_weights(waterfall, named, verdict.effects))
@@ -154,7 +156,7 @@ def _summarised(basis: SummaryBasis) -> tuple[dict[int, FoundEffect], list[float
         c.candidate: summarise_effect(basis, c, part, share)
         for c, part, share in zip(chosen, fit.model.parts, shared, strict=True)
     }
-    return found, of_families
+    return beside_the_stated_load(basis.state, basis.search, found), of_families
 
 
 def _validated(
@@ -238,10 +240,10 @@ def _answer(
     return "nothing missing", False
 
 
-def _carefully(state: DiagnosisState) -> list[Notice]:
+def _carefully(state: DiagnosisState, unexplained: Unexplained) -> list[Notice]:
     """What the fit itself says against too much trust."""
     implausible = beyond_plausible(state.fit.model.parts)
-    notices = [implausible] if implausible else []
+    notices = [*([implausible] if implausible else []), *noise_in_question(state, unexplained)]
     notices += tool_as_stated(state.fit.model)
     if state.growth is not None:
         away = np.linalg.norm(state.recordings.positions, axis=1)

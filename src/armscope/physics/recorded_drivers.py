@@ -107,13 +107,18 @@ def _rows_in_run(scene: LoadedArm, *runs: str) -> Array:
     return np.where(np.isnan(scene.recordings.number), 0.0, _in_run(scene, *runs))
 
 
+def _now_in_run(scene: LoadedArm, *runs: str) -> Array:
+    """In a run, where a row's number is not known: how the last row left what follows the order of rows."""
+    return np.where(np.isnan(scene.recordings.number), _in_run(scene, *runs), 0.0)
+
+
 def _slow_wave(scene: LoadedArm, waves: int, first: float, last: float) -> Array:
     """Cosine of so many half waves from the first time (s) to the last, standing still before and after.
 
-    Zero where no time was recorded: how the set-up then stands is not known.
+    Where no time is given, it is now: as the recording's end left it.
     """
-    time = scene.recordings.time
-    return np.zeros(len(scene)) if time is None else np.nan_to_num(_half_waves(time, waves, first, last))
+    time = np.full(len(scene), np.nan) if scene.recordings.time is None else scene.recordings.time
+    return _half_waves(np.where(np.isnan(time), last, time), waves, first, last)
 
 
 def _slow_wave_of_rows(scene: LoadedArm, waves: int, first: float, last: float) -> Array:
@@ -149,6 +154,7 @@ RECORDED: dict[str, DriverKind] = {
     "in run": DriverKind(_in_run, follows=_RUN),
     "during run": DriverKind(_in_run, follows=_RUN),  # the same, of what is no free frame
     "rows in run": DriverKind(_rows_in_run, follows=_RUN),
+    "now in run": DriverKind(_now_in_run, follows=_RUN),
     "slow wave": DriverKind(_slow_wave, follows=_RUN),
     "slow wave of rows": DriverKind(_slow_wave_of_rows, follows=_RUN),
     "on target": DriverKind(_on_target),

@@ -101,6 +101,11 @@ class WordingRules(Constants):
         "times the error without a model from which one with it is said to be worse on rows that took no part",
         "judgement: less is a matter of which rows",
     )
+    rounding: float = constant(
+        1e-6,
+        "share by which errors must differ to be larger or smaller at all",
+        "derived: sums of squares of millions of rows agree to a millionth in double precision",
+    )
     faint: float = constant(
         0.7,
         "share of the residual below which something unexplained is hidden in the noise",

@@ -202,8 +202,8 @@ class Ground:
 
         Args:
             rest: (n, 3) what neither named effects nor what is left account for. What the families' parts do not
-                account for either is the wander in the order of rows, which a model to predict with does not hold;
-                without a wander it is what errors do only together, and goes to the largest.
+                account for either is what errors do only together, and goes to a wander, which takes up what it can,
+                or, without one, to the largest.
         """
         families: dict[str, list[Part]] = {}
         for part in self.verdict.model.background:

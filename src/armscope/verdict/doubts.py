@@ -20,6 +20,7 @@ MAY_BE_READ_SO = (
     "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "
     "instrument's own error, and such commands would move a good arm wrongly."
 )
+NEVER_AGAIN = "Confirm it first: of the same rows drawn anew, no table has this name."
 NOT_THE_ARMS = ("instrument", "drift")
 """Families of what is read wrongly, or stood elsewhere: the instrument, its target, the set-up."""
 
@@ -63,8 +64,9 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     places = list(dict.fromkeys(each.location for each in readings))
     _, _, region = effect.title.partition(", ")
     first = f"First find out which it is: {which}{how}."
-    if effect.size_open:
-        first = f"{CONFIRM_FIRST} {first}" if rivals else CONFIRM_FIRST
+    unsure = CONFIRM_FIRST if effect.size_open else NEVER_AGAIN if effect.never_chosen else ""
+    if unsure:
+        first = f"{unsure} {first}" if rivals else unsure
     return Doubt(
         what=kind_and_place(effect),
         place=enumerated(places, "or") if _either(effect) or not region else region,

@@ -156,6 +156,11 @@ class FoundEffect:
         return self.inclusion is not None and self.inclusion < WORDS.reliable
 
     @property
+    def never_chosen(self) -> bool:
+        """Whether no table of the same rows drawn anew has it."""
+        return self.inclusion == 0
+
+    @property
     def as_member(self) -> str:
         """ "effect at location", as causes list their members."""
         return f"{self.effect} at {self.location}"

@@ -19,6 +19,8 @@ TOOL_AS_STATED = "tool as stated"
 """The kind of a notice that a tool point is as stated, since poses do not tell it from the base."""
 ROWS_LEFT_OUT = "rows left out"
 """The kind of a notice that many rows fit none of what was found."""
+NOISE_EXCEEDED = "noise exceeded"
+"""The kind of a notice that what remains is above the stated noise and follows nothing: that may be too small."""
 NO_BAD_SHOTS = "rows that are no bad shots"
 """The same where they are too many to be bad shots: what is promised is then promised with them."""
 

@@ -15,6 +15,7 @@ from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
 from armscope.verdict.promise import promised
+from armscope.verdict.remainder import above_what, asked_of_noise, still_open
 from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
 from armscope.verdict.unsettled import vague
 from armscope.verdict.wording import (
@@ -34,7 +35,6 @@ from armscope.verdict.wording import (
     plain,
     reach,
     spelled,
-    still_open,
 )
 
 _OTHERS = "all others a little"
@@ -102,7 +102,9 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     Returns:
         The clause.
     """
-    told = [effect for effect in members if not effect.minor][:1] or ([] if small else list(members[:1]))
+    # what no table of the same rows drawn anew names leads nothing: it is one of the small errors, or no part for sure
+    main = [effect for effect in members if not effect.minor]
+    told = [e for e in main if not e.never_chosen][:1] or ([] if small else list((main or members)[:1]))
     none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
     none_stands_out += _WORST + small.worst if small and small.worst else ""
     if small and warms(family, small.worst):
@@ -168,8 +170,9 @@ def makes_worse(verdict: Verdict) -> bool:
     Rows that fit no name, and those of joints that scatter, count little in a fit: it may miss all rows by more then.
     """
     promise, held = promised(verdict), verdict.held_out
-    fits_worse = verdict.residual_after_mm > verdict.residual_before_mm
-    worse_at_all = held.after > held.before and held.after_all_rows > held.before_all_rows
+    surely = 1 + WORDS.rounding  # where nothing is named the two differ in their last digit
+    fits_worse = verdict.residual_after_mm > surely * verdict.residual_before_mm
+    worse_at_all = held.after > surely * held.before and held.after_all_rows > surely * held.before_all_rows
     return promise.after > WORDS.clearly_worse * promise.before or (fits_worse and worse_at_all)
 
 
@@ -280,16 +283,14 @@ def _told(effect: FoundEffect) -> Told:
 
 
 def _cannot_tell(verdict: Diagnosis) -> str:
-    left, after = verdict.unexplained, verdict.residual_after_mm
+    left, after, above = verdict.unexplained, verdict.residual_after_mm, above_what(verdict.unexplained)
     # larger than all that is left: it is of rows that fit nothing
-    if verdict.mismatch and left.description and not WORDS.faint * after <= left.rms_mm <= after:
+    if verdict.mismatch and left.description and not (above or WORDS.faint * after <= left.rms_mm <= after):
         return f"Cannot tell what is missing: {plain(left.description)}."
     if verdict.mismatch:
-        remains = millimetres(after)
-        return (
-            f"Cannot tell what is missing: {remains} per axis remain, more than noise, "
-            "but they follow nothing that was recorded."
-        )
+        remain, asked = f"{millimetres(after)} per axis remain, {above or 'more than noise'}", asked_of_noise(verdict)
+        end = f": {asked}" if asked else "."
+        return f"Cannot tell what is missing: {remain}, but they follow nothing that was recorded{end}"
     why = verdict.notices[-1].text.rstrip(".") if verdict.notices else "the recordings do not say"
     poses = verdict.next_poses
     further = 0 if poses is None or not poses.settle else len(poses.motor_angles)

@@ -14,7 +14,6 @@ from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.counting import odds_in_words, with_prefix
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
-from armscope.verdict.schema import Verdict
 
 LABELS = {
     "amplitude": "swing (± about the mean)",
@@ -224,21 +223,6 @@ def percent(share: float) -> str:
         return "< 0.1 %"
     text = f"{min(value, 100):.0f} %" if abs(value) >= 9.5 else f"{value:.1f} %"
     return text.replace("-", "−")
-
-
-def still_open(verdict: Verdict) -> str:
-    """What remains where not all is explained, beside what noise alone would leave; a clause."""
-    left, noise = verdict.residual_after_mm, verdict.noise_mm
-    named = any(p.name == "scatter" for effect in verdict.effects for p in effect.parameters)
-    remain = f"{millimetres(left)} remain{', the scatter included' if named else ''}"
-    if not noise < left:
-        structured = any(notice.kind == "model error" for notice in verdict.notices)
-        without_a_name = any(effect.nameless for effect in verdict.effects)
-        if without_a_name and not structured:
-            return f"the {millimetres(left)} that remain are noise"
-        return f"{remain}, no more than noise in size, yet with a pattern that is not yet explained"
-    at_most = " at most" if "residuals" in verdict.noise_source else ""
-    return f"{remain}, where noise alone would leave {millimetres(noise)}{at_most}: something is not yet explained"
 
 
 def millimetres(value: float | None) -> str:

@@ -85,3 +85,11 @@ def test_a_name_whose_size_may_be_zero_is_hedged_in_the_headline_and_confirmed_b
     said = headline(verdicts.case(effects=(told,)).verdict)
     assert ("most likely" in said) == ("of a size that these rows do not determine" in said) == (not sure)
     assert ("The bearing of joint 6 tilts by" in said) == sure
+
+
+@pytest.mark.parametrize(("inclusion", "sure"), [(0.0, False), (0.3, True), (None, True)])
+def test_a_name_that_no_table_drawn_anew_has_is_told_by_kind_and_region(inclusion: float | None, sure: bool) -> None:
+    size = Parameter("compliance", "rad/(N m)", GIVE, 0.1e-6)
+    found = replace(verdicts.found("bearing_compliance", "joint 6", size), inclusion=inclusion)
+    candidate = Candidate("bearing_compliance", "joint 6", np.arange(1), np.ones(1), family="elastic", region="6")
+    assert (_as_sure_as_its_size(found, candidate).named_as == "effect") == sure

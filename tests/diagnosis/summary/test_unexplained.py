@@ -14,7 +14,7 @@ from armscope.diagnosis.summary.unexplained import load_in_question
 from armscope.physics.effect import Part
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.recordings import Recordings
-from armscope.verdict.schema import Background
+from armscope.verdict.schema import NOISE_EXCEEDED, Background
 
 from ...physics.scenes import arm_named
 from ..planted import one_run, planted, recorded
@@ -90,3 +90,15 @@ def test_what_hangs_at_the_flange_is_asked_where_masses_do_not_fit(variant: str,
         assert ("does the target sit loosely" in told[0].text) == (joint == "joint 6"), "an arm of six joints"
     unknown = SimpleNamespace(arm=replace(arm, masses=np.zeros_like(arm.masses)), parts=(part,))
     assert not load_in_question(SimpleNamespace(fit=SimpleNamespace(model=unknown)))
+
+
+@pytest.mark.parametrize(("stated_mm", "asked"), [(0.02, True), (0.06, False)])
+def test_a_stated_noise_that_is_exceeded_by_what_follows_nothing_is_asked_for(stated_mm: float, asked: bool) -> None:
+    """Of noise of 0.06 mm where 0.02 mm were stated it was said to measure more poses."""
+    arm = arm_named("six-axis")
+    once = replace(one_run(arm, 60, 4), time=None, temperature=None)
+    sure = replace(arm, sigma=1e-3 * stated_mm)
+    found = diagnose(sure, recorded(arm, once, {}, 0.06, 5), QUICK)
+    assert found.mismatch == asked
+    assert any(notice.kind == NOISE_EXCEEDED and "sigma_mm" in notice.text for notice in found.notices) == asked
+    assert ("is the `sigma_mm` of robot.yaml too small" in found.headline) == asked

@@ -63,6 +63,12 @@ class TellingRules(Constants):
         "cosine of the phase from which a wave works against what its drive gives like a balancing spring",
         "judgement: within 45 degrees of it; a spring's anchor need not stand upright",
     )
+    unstated_load_kg: float = constant(
+        1.0,
+        "at the flange of an arm of which no load is stated",
+        "judgement: a target's holder, a gripper's plate; nobody states them",
+        unit="kg",
+    )
     few_left_out: float = constant(
         0.05,
         "share of rows that look like bad shots up to which they are taken to be that without a word",

@@ -126,12 +126,12 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
 
 
 def _as_sure_as_its_size(found: FoundEffect, candidate: Candidate) -> FoundEffect:
-    """An effect; one whose sizes may all be zero is told by its kind and region only.
+    """An effect; one whose sizes may all be zero, or that no table drawn anew has, is told by its kind and region only.
 
     Two that stand in for each other are both worth their evidence, and neither may be there: a tool that bent under its
     payload was a bearing to be replaced and a centre of mass by -24 +- 88 mm.
     """
-    if found.named_as != "effect" or not found.size_open:
+    if found.named_as != "effect" or not (found.size_open or found.never_chosen):
         return found
     named_as, title = specific_name(candidate, [candidate])
     return replace(found, named_as=named_as, title=title)

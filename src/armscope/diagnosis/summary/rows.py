@@ -17,11 +17,11 @@ from armscope.diagnosis.summary.untold_sides import as_recorded, left_without_un
 from armscope.fitting.refit import Refit
 from armscope.measurement.constants import WEIGHTS
 from armscope.physics.backgrounds import GEOMETRIC
+from armscope.physics.carried_on import carried_on
 from armscope.physics.effect import Part
 from armscope.physics.freeform import about_its_mean, held
 from armscope.physics.geometric import BACKGROUND, joint_zero
 from armscope.physics.model import FittedModel
-from armscope.physics.wander import is_of_rows
 from armscope.recordings import Recordings
 from armscope.verdict.diagnosis import Residuals
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice, Orientations, SuspectRow
@@ -130,10 +130,10 @@ def _suspects(state: DiagnosisState) -> tuple[SuspectRow, ...]:
 def _to_predict(model: FittedModel, recordings: Recordings) -> FittedModel:
     """The model to predict with: its free curves go no farther than they were learned.
 
-    A wander in the order of these rows says nothing of other rows.
+    What held-out errors count is in it. A wander in the order of rows stays as the last row found it: a file without it
+    misses by all that the arm had warmed up or the base had moved.
     """
-    background = tuple(p for p in model.background if not is_of_rows(p.placed))
-    model = _zeros_with_geometry(replace(model, background=background), recordings)
+    model = _zeros_with_geometry(carried_on(model, recordings), recordings)
     parts = tuple(replace(p, placed=held(p.placed, recordings)) for p in model.parts)
     return replace(model, parts=parts)
 

@@ -20,7 +20,8 @@ from armscope.physics.backgrounds import DRIFT, ELASTIC, FAMILIES, GEOMETRIC, ME
 from armscope.physics.elastic import UNKNOWN_MASSES
 from armscope.physics.loads import STATED_MASSES
 from armscope.verdict.effects import INTERVAL, FoundEffect
-from armscope.verdict.schema import Background, Notice, Unexplained
+from armscope.verdict.remainder import ABOVE_NOISE, above_what
+from armscope.verdict.schema import NOISE_EXCEEDED, Background, Notice, Unexplained
 from armscope.verdict.wording import capitalised, places_in_words
 
 WITH_A_WORST_PLACE = (GEOMETRIC, ELASTIC, TRANSMISSION, DRIFT)
@@ -156,11 +157,31 @@ def unexplained_part(effects: Sequence[FoundEffect], state: DiagnosisState) -> U
     ):
         if known and state.fit.noise > TELLING.noise_excess * known and _significant(state, known, 3 * repeats):
             extra = float(np.sqrt(state.fit.noise**2 - known**2))
-            return Unexplained(True, None, None, extra, f"residual above {what}, that follows nothing in the table")
+            return Unexplained(True, None, None, extra, f"{ABOVE_NOISE}{what}, that follows nothing in the table")
     if not state.noise.stated_mm and state.fit.noise > TELLING.coarsest_noise * 1e3 * state.fit.model.arm.reach:
         words = "residual far above the noise of any instrument, that follows nothing in the table"
         return Unexplained(True, None, None, state.fit.noise, words)
     return Unexplained(False)
+
+
+def noise_in_question(state: DiagnosisState, left: Unexplained) -> list[Notice]:
+    """A question about a stated uncertainty that is exceeded by what follows nothing: it may be too small itself.
+
+    Args:
+        state: the finished selection.
+        left: what is unexplained.
+
+    Returns:
+        One notice, or none.
+    """
+    stated = state.noise.stated_mm
+    if not stated or not above_what(left):
+        return []
+    text = (
+        f"What remains ({state.fit.noise:.3g} mm per axis) is above the stated noise ({stated:.3g} mm) and follows "
+        "nothing in the table: is the `sigma_mm` of robot.yaml too small, or were positions rounded?"
+    )
+    return [Notice(NOISE_EXCEEDED, text)]
 
 
 def rows_apart(state: DiagnosisState) -> Unexplained:

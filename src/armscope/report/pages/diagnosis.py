@@ -41,6 +41,7 @@ from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.promise import promised
+from armscope.verdict.remainder import asked_of_noise
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import capitalised, main_and_minor, millimetres, percent, places_in_words
@@ -85,6 +86,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "instead": min((task.then_mm for task in tasks if task.instead), default=None),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),
+        "asked": asked_of_noise(verdict).replace("`", ""),
         "differ": from_part_to_part(verdict),
         "background": percent(verdict.background.share),
         "to_confirm": [(capitalised(title_of(e)), e.confirm) for e in main_and_minor(verdict.effects)[0]],
