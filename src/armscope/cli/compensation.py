@@ -220,7 +220,7 @@ def _tell(result: Compensated) -> None:
         missed, left = (np.sqrt(np.mean(miss[reached] ** 2)) * 1e3 for miss in (result.uncorrected, result.residual))
         outside = result.outside[reached].max()
         print(
-            f"{reached.sum()} of {count} rows: predicted miss {or_less(missed, 4)} mm RMS of the distance; corrected, "
+            f"{reached.sum()} of {count} rows: predicted miss {or_less(missed, 3)} mm RMS of the distance; corrected, "
             f"the model expects {or_less(left)} mm"
         )
         if result.pose:
