@@ -14,18 +14,19 @@ from armscope.check.preconditions import as_notices, check_table, too_far
 from armscope.check.report import what_forbids
 from armscope.core.types import Progress, unheard
 from armscope.diagnosis.constants import LOOP
-from armscope.diagnosis.gravity_direction import estimate_gravity_direction
+from armscope.diagnosis.gravity_direction import GravityEstimate, estimate_gravity_direction
 from armscope.diagnosis.held_out import split_rows
 from armscope.diagnosis.judgement import judge
 from armscope.diagnosis.play_by_order import select_with_sides
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.leaning_gravity import better_than_a_name
 from armscope.diagnosis.undecided import undecided
 from armscope.fitting.constants import STEPS
 from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.set_ups import compare_bases, set_up_anew
-from armscope.measurement.channel import Channel, nuisances
+from armscope.measurement.channel import Channel, ChannelResiduals, nuisances
 from armscope.measurement.noise import Noise, known_noise
 from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.effect import Placed
@@ -36,8 +37,9 @@ from armscope.recordings import Recordings
 from armscope.recordings.some_rows import some_rows
 from armscope.robot import Arm
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import INTERVAL
+from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Notice
+from armscope.verdict.wording import effect_in_words
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,8 @@ class Settings:
         resamples: how many times rows are resampled for the inclusion frequencies; 0 leaves them out.
         cross_validation: whether the procedure is validated on held-out rows.
         orientation: whether measured orientations are used, where there are some.
-        estimate_gravity: whether gravity's direction is free; otherwise it is as the robot's description states.
+        estimate_gravity: whether gravity's direction is free from the start; otherwise it is as the robot's description
+            states, unless a leaning one does clearly better than an effect that would be named.
         floor_mm: height in the base frame below which the poses to measure next may not reach; None: as low as the
             arm was in the recordings.
     """
@@ -109,19 +112,55 @@ def diagnose(
     notices = (*as_notices(problems, obstacle), *checked.notices, *told, *doubts, *_of_type(arm))
     if obstacle is not None:
         return undecided(start, table, first.points_mm, noise, (*notices, obstacle), time.perf_counter() - started)
+    known = _Prepared(start, rows, first, noise, frames, notices)
     if settings.estimate_gravity:
-        arm, told = _gravity(start, table, noise, tool_per_run)
-        start, notices = replace(start, arm=arm), (*notices, *told)
-    rng = np.random.default_rng(settings.seed)
-    split = split_rows(table, rng)
-    found = select_with_sides(start, rows, noise, frames, split.of_row, progress)
-    state = DiagnosisState(
-        **vars(found), start=start, recordings=found.table.recordings, first=first, noise=noise, notices=notices,
-        split=split, floor=settings.floor,
-    )  # fmt: skip
-    verdict = judge(state, settings.resamples, settings.cross_validation, rng, progress)
+        known = _along(known, _gravity(start, table, noise, tool_per_run))
+    verdict = _judged(known, settings, progress)
+    beaten = None if settings.estimate_gravity else better_than_a_name(verdict)
+    if beaten is not None and (found := estimate_gravity_direction(start, table, noise, tool_per_run)) is not None:
+        progress("gravity leans: once more along it", 0.02)
+        verdict = _better_of(verdict, _judged(_along(known, _leaning(found, beaten)), settings, progress))
     progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
+
+
+@dataclass(frozen=True, eq=False)
+class _Prepared:
+    """What a diagnosis starts from: base and tool placed, the rows, their noise, and what was said of them so far."""
+
+    start: FittedModel
+    rows: LinearisedTable
+    first: ChannelResiduals
+    noise: Noise
+    frames: Sequence[Placed]
+    notices: tuple[Notice, ...]
+
+
+def _judged(known: _Prepared, settings: Settings, progress: Progress) -> Diagnosis:
+    """The selection and its verdict."""
+    rng = np.random.default_rng(settings.seed)
+    split = split_rows(known.rows.recordings, rng)
+    found = select_with_sides(known.start, known.rows, known.noise, known.frames, split.of_row, progress)
+    state = DiagnosisState(
+        **vars(found), start=known.start, recordings=found.table.recordings, first=known.first, noise=known.noise,
+        notices=known.notices, split=split, floor=settings.floor,
+    )  # fmt: skip
+    return judge(state, settings.resamples, settings.cross_validation, rng, progress)
+
+
+def _along(known: _Prepared, gravity: tuple[Arm, list[Notice]]) -> _Prepared:
+    """The same along another direction of gravity, with what is said of it."""
+    arm, told = gravity
+    return replace(known, start=replace(known.start, arm=arm), notices=(*known.notices, *told))
+
+
+def _better_of(stated: Diagnosis, leaning: Diagnosis) -> Diagnosis:
+    """The verdict along gravity that leans, where rows that took no part are met no worse by it; all, if none were."""
+    before, after = (
+        each.held_out.after if np.isfinite(each.held_out.after) else each.residual_after_mm
+        for each in (stated, leaning)
+    )
+    return leaning if after <= before else stated
 
 
 def _of_type(arm: Arm) -> list[Notice]:
@@ -161,6 +200,10 @@ def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: 
     if found is None:
         text = "Nothing speaks for another direction of gravity than stated."
         return start.arm, [Notice("gravity as stated", text)]
+    return found.arm, [_estimated(found)]
+
+
+def _estimated(found: GravityEstimate) -> Notice:
     angle, stderr = np.degrees(found.angle), np.degrees(found.stderr)
     down = ", ".join(f"{g:.3g}" for g in found.arm.gravity)
     text = (
@@ -168,7 +211,18 @@ def _gravity(start: FittedModel, table: Recordings, noise: Noise, tool_per_run: 
         f"({found.evidence:.0f} nats): "
         f"gravity_m_s2: [{down}] in the base frame was used."
     )
-    return found.arm, [Notice("gravity estimated", text)]
+    return Notice("gravity estimated", text)
+
+
+def _leaning(found: GravityEstimate, beaten: FoundEffect) -> tuple[Arm, list[Notice]]:
+    """The arm along gravity that leans though nobody asked, and why."""
+    instead = f"{effect_in_words(beaten.effect, beaten.location)} would be named"
+    text = (
+        f"The arm gives way to gravity that leans by {np.degrees(found.angle):.1f} degrees from where it is stated; "
+        f"along the stated one {instead}, and the rows speak against that. The estimated direction was used: see "
+        "whether the base stands level; level it, or state `gravity_m_s2`, before anything else is changed."
+    )
+    return found.arm, [Notice("gravity", text), _estimated(found)]
 
 
 def _too_few(recordings: Recordings, frames: Sequence[Placed]) -> Notice | None:

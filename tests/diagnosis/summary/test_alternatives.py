@@ -63,6 +63,17 @@ def test_a_rival_in_the_same_background_pays_no_more_than_the_name() -> None:
     assert rival.held == tuple(problem.space.candidates[DRIVE_AT].columns)
 
 
+def test_a_name_that_paid_is_weighed_against_a_rival_that_pays_nothing_at_the_same_price() -> None:
+    """A bearing stood beside a drive as "8.6 nats better": the drive had paid for its name, and the bearing had not."""
+    problem = problem_where(DRIVE_AT, 0.98, drive=-0.2)
+    promoted, search = with_drive_named(problem), Search.on(problem)
+    paid = search.evaluated(tuple(replace(c, nested=False) for c in promoted.chosen), promoted)
+    assert paid.log_posterior < promoted.log_posterior - 1
+    gaps = [{r.hypothesis.candidates: r.gap for r in alternatives(search, best)[DRIVE_AT]} for best in (promoted, paid)]
+    tilt = frozenset({TILT_AT})
+    assert gaps[1][tilt] == pytest.approx(gaps[0][tilt], abs=0.1)
+
+
 def test_a_rival_is_judged_on_held_out_rows_with_the_names_own_column_at_zero() -> None:
     """The drive gives way besides: the background would take that up if it were not held."""
     X, y = rows_where(DRIVE_AT, 0.98, drive=-0.2)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis import Settings, diagnose, pipeline
+from armscope.diagnosis.summary.leaning_gravity import better_than_a_name
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import Alternative
+from armscope.verdict.schema import HeldOut
 from tests.diagnosis.planted import Wanted, one_run, recorded
 from tests.physics.scenes import arm_named
+from tests.report import verdicts
 from tests.seeds import seeds
 
 QUICK = Settings(resamples=0, cross_validation=False)
@@ -31,7 +35,35 @@ def told_upright(degrees: float, planted: Wanted, seed: int) -> Diagnosis:
 
 
 @pytest.mark.parametrize("seed", seeds(1, 2, 3))
-def test_what_a_wedge_does_has_no_other_name_for_sure(seed: int) -> None:
+def test_gravity_that_betters_a_name_takes_its_place(seed: int) -> None:
+    """A wobble stood in front, and beside it, 16 to 85 nats better, gravity that leans: nobody asked for that."""
+    verdict = told_upright(3.0, SOFT, seed)
+    assert {(e.effect, e.location) for e in verdict.effects} == set(SOFT)
+    (told,) = [n.text for n in verdict.notices if n.kind == "gravity estimated"]
+    assert float(told.split()[2]) == pytest.approx(3.0, abs=0.3)
+    (why,) = [n.text for n in verdict.notices if n.kind == "gravity" and "would be named" in n.text]
+    assert "see whether the base stands level" in why
+    np.testing.assert_allclose(verdict.model.arm.gravity, leaning(arm_named("six-axis"), 3.0).gravity, atol=0.06)
+
+
+@pytest.mark.parametrize(("after", "other", "which"), [(0.05, 0.04, 1), (0.05, 0.06, 0), (np.nan, np.nan, 1)])
+def test_a_direction_nobody_asked_for_must_foretell_other_rows_no_worse(after: float, other: float, which: int) -> None:
+    both = [verdicts.case(effects=(), held_out=HeldOut(0.4, each)).verdict for each in (after, other)]
+    assert pipeline._better_of(*both) is both[which]
+
+
+@pytest.mark.parametrize(("gap", "beaten"), [(-2.5, False), (-16.0, True)])
+def test_only_clearly_better_gravity_takes_a_place(gap: float, beaten: bool) -> None:
+    leans = Alternative("leaning_gravity", "base", "elastic", gap, "direction of gravity", 0.0)
+    effects = verdicts.compliance(), verdicts.found("axis_wobble", "joint 1", alternatives=(leans,))
+    told = better_than_a_name(verdicts.case(effects=effects).verdict)
+    assert (told is effects[1]) == beaten == (told is not None)
+
+
+@pytest.mark.parametrize("seed", seeds(1, 2, 3))
+def test_what_a_wedge_does_has_no_other_name_for_sure(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Along gravity as it is stated."""
+    monkeypatch.setattr(pipeline, "better_than_a_name", lambda verdict: None)
     for effect in told_upright(3.0, SOFT, seed).effects:
         if effect.effect != "joint_compliance" and effect.effect != "unknown":
             assert "leaning_gravity" in {other.effect for other in effect.alternatives}, effect.title

@@ -85,7 +85,9 @@ def _in_place_of(
     if explained_anyway and not rest:
         held = tuple(int(column) for column in candidate.held)
         search = search.holding(candidate.held)
-    base = search.without(best, [number, *rest])
+    base, likeness = search.without(best, [number, *rest]), best.log_posterior
+    if held:  # a name that had paid before its background was there is weighed at the price of its rivals there: none
+        likeness = max(likeness, _at_no_price(search, best, number).log_posterior)
     taken = {search.candidate(c).key for c in best.candidates if not stand_together(search, c, number)}
     lines = {c.location: c for c in search.space.candidates if c.kind == DRIVE and not c.variant}
     # what a coarse prediction puts far behind is not weighed
@@ -95,7 +97,7 @@ def _in_place_of(
         of_background = held and search.in_background(added, added.chosen[-1].candidate)
         other = search.unpaid(added) if of_background else added
         rival, own = search.candidate(other.chosen[-1].candidate), refused.gain(added.chosen[-1], bool(of_background))
-        gap = best.log_posterior - other.log_posterior - paid + own
+        gap = (likeness if of_background else best.log_posterior) - other.log_posterior - paid + own
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
         as_likely = (candidate.is_curve and excluded) or (misfit < NAMING.alike_nats and _is_other(candidate, rival))
@@ -110,6 +112,12 @@ def _in_place_of(
             rival = lines.get(rival.location, rival)
         found.append(Rival(gap, rival, other, near, held))
     return found
+
+
+def _at_no_price(search: Search, best: Hypothesis, number: int) -> Hypothesis:
+    """A hypothesis with an effect as a name out of its background."""
+    chosen = tuple(replace(c, nested=True) if c.candidate == number else c for c in best.chosen)
+    return best if chosen == best.chosen else search.evaluated(chosen, best)
 
 
 def _is_more_than(effect: Candidate, rival: Candidate) -> bool:

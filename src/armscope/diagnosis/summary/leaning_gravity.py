@@ -24,7 +24,8 @@ from armscope.inference.normal_equations import column_scales
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.effect import Part, Placed, Term
 from armscope.physics.loads import STATED_MASSES, givings, gravity_that_leans
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative
+from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, FoundEffect
 
 LOOK_AT_THE_LEVEL = (
     "See first whether the base stands level: joints that give way to gravity that leans from what robot.yaml states "
@@ -62,6 +63,18 @@ def told_by_gravity(state: DiagnosisState) -> dict[int, Alternative]:
                 "leaning_gravity", "base", "elastic", float(gap), "direction of gravity", float(max(gap, 0.0))
             )
     return found
+
+
+def better_than_a_name(verdict: Diagnosis) -> FoundEffect | None:
+    """The effect that gravity that leans betters by most, at odds of 20 to 1 at least; None where it betters none."""
+    gaps = {
+        other.evidence_gap_nats: effect
+        for effect in verdict.effects
+        for other in effect.alternatives
+        if other.effect == "leaning_gravity"
+    }
+    least = min(gaps, default=0.0)
+    return gaps[least] if least < -PRIORS.sure_nats else None
 
 
 def _may_be(placed: Placed) -> bool:
