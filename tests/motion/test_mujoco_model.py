@@ -37,3 +37,19 @@ def test_mujoco_has_the_chain_and_its_inverse_dynamics_where_axes_lie_anywhere(f
     expected = [pin.rnea(chain, data, *row).copy() for row in zip(q, dq, ddq, strict=True)]
     made = mujoco.MjModel.from_xml_string(mujoco_model(model))
     np.testing.assert_allclose(simulated(made, q, dq, ddq), expected, atol=1e-7)
+
+
+def test_an_arm_of_one_slide_is_one(found: MotionDiagnosis) -> None:
+    """Seen on a public recording of a slide on a table: a single joint's columns come as a row."""
+    model = found.arm.model
+    one = pin.Model()
+    one.addJoint(0, pin.JointModelPX(), pin.SE3.Identity(), "slide")
+    tip = model.frames[model.getFrameId(TIP)]
+    one.addFrame(pin.Frame(tip.name, 1, 0, tip.placement, pin.FrameType.OP_FRAME))
+    inertial = pin.Inertia(3.0, np.zeros(3), np.eye(3)).toDynamicParameters()
+    arm = replace(found.arm, model=one, inertial=inertial, actuation=np.eye(1))
+    slide = replace(found.model, arm=arm, inertial=inertial, causes=(), joints=np.array([[0.0, 1.0, 2.0, 0.5]]))
+    made = mujoco.MjModel.from_xml_string(mujoco_model(slide))
+    assert made.jnt_type.tolist() == [mujoco.mjtJoint.mjJNT_SLIDE]
+    np.testing.assert_allclose(made.jnt_axis[0], [1, 0, 0])
+    assert (float(made.dof_damping[0]), float(made.dof_armature[0])) == (2.0, 0.5)

@@ -31,6 +31,7 @@ from armscope.diagnosis.summary.parameters import beyond_plausible, tool_as_stat
 from armscope.diagnosis.summary.rounded_angles import rounding_mm, told_of_rounding
 from armscope.diagnosis.summary.rows import rows_left_out, told_of_rows
 from armscope.diagnosis.summary.scatter import rest_of_a_curve, scattered_effects, told_as_scatter
+from armscope.diagnosis.summary.soft_drives import told_by_drives
 from armscope.diagnosis.summary.stated_load import beside_the_stated_load
 from armscope.diagnosis.summary.unexplained import (
     background_summaries,
@@ -144,7 +145,7 @@ def _basis(state: DiagnosisState, resamples: int, rng: np.random.Generator) -> S
         _plain_equations(state),
         model_error(fit, state.recordings, state.noise.least_mm),
         {number: extra + of_backgrounds.get(number, 0.0) for number, extra in of_laws.items()},
-        told_by_gravity(state),
+        {**told_by_drives(state), **told_by_gravity(state)},
     )
 
 

@@ -10,12 +10,11 @@ import numpy as np
 from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import on_loads
-from armscope.diagnosis.free_curves import predicted_without_curves
+from armscope.diagnosis.free_curves import predicted_without_curves, told_by_laws
 from armscope.diagnosis.implausible import more_plausible, without_implausible
 from armscope.diagnosis.kept_effects import kept_effects
 from armscope.diagnosis.model_space import EffectSpace, build_model_space
 from armscope.diagnosis.naming import named
-from armscope.diagnosis.ordinary_give import told_plainly
 from armscope.diagnosis.round_state import RoundState
 from armscope.diagnosis.row_noise import NoiseOfRows
 from armscope.diagnosis.scans.constants import SCANS
@@ -209,7 +208,7 @@ class SelectionLoop:
 
     def _take(self, search: Search, found: Hypothesis) -> None:
         """Names and the exact fit of a hypothesis."""
-        self.found, self.last = search.refined(told_plainly(search, self.space, found)), (found, self.space)
+        self.found, self.last = search.refined(told_by_laws(search, found)), (found, self.space)
         self._fit(named(search, self.space, self.found))
 
     def _fit(self, best: Hypothesis, of_all: bool = False) -> None:

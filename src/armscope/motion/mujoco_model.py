@@ -56,7 +56,8 @@ def _tool(model: MotionModel) -> np.ndarray:
 def _axis(chain: pin.Model, joint: int) -> str:
     """The axis of a joint in its own frame: how its frame moves when it alone does."""
     data = chain.createData()
-    moving = pin.computeJointJacobian(chain, data, pin.neutral(chain), joint)[:, chain.joints[joint].idx_v]
+    columns = pin.computeJointJacobian(chain, data, pin.neutral(chain), joint).reshape(6, -1)  # one joint: (6,)
+    moving = columns[:, chain.joints[joint].idx_v]
     return _row(moving[:3] if np.linalg.norm(moving[:3]) > np.linalg.norm(moving[3:]) else moving[3:])
 
 

@@ -20,6 +20,7 @@ from armscope.diagnosis.summary.homogeneity import SameSize
 from armscope.diagnosis.summary.leaning_gravity import LEVEL_IT, LOOK_AT_THE_LEVEL
 from armscope.diagnosis.summary.parameters import parameters, undetermined
 from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
+from armscope.diagnosis.summary.soft_drives import CURE_OF_DRIVES, LOOK_AT_DRIVES
 from armscope.fitting.discrepancy import ModelError
 from armscope.fitting.refit import Refit
 from armscope.inference.model_space import Candidate
@@ -34,6 +35,12 @@ from armscope.verdict.effects import Alternative, FoundEffect, Parameter
 from armscope.verdict.schema import Background
 from armscope.verdict.wording import effect_in_words
 
+FIRST_LOOKS = {
+    "leaning_gravity": (LOOK_AT_THE_LEVEL, LEVEL_IT),
+    JOINT_COMPLIANCE.name: (LOOK_AT_DRIVES, CURE_OF_DRIVES),
+}
+"""What to look at before an effect is believed, and what stands before its cure, by what else it may be."""
+
 
 @dataclass(frozen=True, eq=False)
 class SummaryBasis:
@@ -47,7 +54,7 @@ class SummaryBasis:
         scene: recorded rows, spread evenly where there are many.
         equations: sums over all rows as they were measured.
         model_error: what no effect explains, and what it does to the covariance.
-        leaning: by candidate, gravity that leans, where it does as well.
+        instead: by candidate, what does as well and is to be looked at first: gravity that leans, soft drives.
         other_doubt: by candidate, what backgrounds of other sizes and other laws of its joint add to the covariance.
     """
 
@@ -59,7 +66,7 @@ class SummaryBasis:
     equations: NormalEquations
     model_error: ModelError
     other_doubt: Mapping[int, Array]
-    leaning: Mapping[int, Alternative]
+    instead: Mapping[int, Alternative]
 
 
 def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, share: float) -> FoundEffect:
@@ -81,9 +88,7 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
     coefficients = np.zeros(len(fit.layout.terms))
     coefficients[at] = _sized(state, chosen, part, fit.covariance_of(placed))
     values, covariance = _with_drive_of_background(fit, part, basis.model_error.covariance)
-    if (doubt := basis.other_doubt.get(chosen.candidate)) is not None:
-        its = _fitted_terms(state, chosen, part)
-        covariance = covariance + doubt[np.ix_(its, its)]
+    covariance = covariance + _other_doubt(basis, chosen, part)
     rms = projected_rms(basis.equations, fit.layout.frames, coefficients)
     if candidate.is_curve:
         rms = min(rms, _own_size(fit, part))
@@ -96,10 +101,11 @@ def summarise_effect(basis: SummaryBasis, chosen: SelectedEffect, part: Part, sh
         others, confirm = (rival, *others), f"{look} {confirm}"
         if named_as == "effect" and placed.name != JOINT_COMPLIANCE.name:  # the drive gives way beside a spring as well
             named_as, title = "region", f"{title} or {effect_in_words(rival.effect, rival.location)}"
-    leaning = basis.leaning.get(chosen.candidate)
-    if leaning is not None:
-        others, confirm, cure = (leaning, *others), f"{LOOK_AT_THE_LEVEL} {confirm}", f"{LEVEL_IT} {cure}"
-        named_as, title = "region", f"{title} or {effect_in_words(leaning.effect, leaning.location)}"
+    instead = basis.instead.get(chosen.candidate)
+    if instead is not None:
+        look, first = FIRST_LOOKS[instead.effect]
+        others, confirm, cure = (instead, *others), f"{look} {confirm}", f"{first} {cure}"
+        named_as, title = "region", f"{title} or {effect_in_words(instead.effect, instead.location)}"
     left_open = undetermined(placed, covariance)
     told = tuple(p for p in parameters(placed, values, covariance) if p.name not in left_open)
     found = FoundEffect(
@@ -170,6 +176,15 @@ def _sized(state: DiagnosisState, chosen: SelectedEffect, part: Part, covariance
     # the posterior with this prior in place of a flat one
     scaled = covariance / np.outer(scale, scale)
     return np.asarray(scale * (np.linalg.solve(np.eye(len(scale)) + scaled, part.values / scale)))
+
+
+def _other_doubt(basis: SummaryBasis, chosen: SelectedEffect, part: Part) -> Array:
+    """(k, k) what `other_doubt` adds to the covariance of a part's values; zeros where it says nothing of them."""
+    doubt = basis.other_doubt.get(chosen.candidate)
+    if doubt is None:
+        return np.zeros((len(part.values),) * 2)
+    its = _fitted_terms(basis.state, chosen, part)
+    return np.asarray(doubt[np.ix_(its, its)])
 
 
 def _fitted_terms(state: DiagnosisState, chosen: SelectedEffect, part: Part) -> list[int]:

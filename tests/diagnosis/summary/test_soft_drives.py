@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from armscope.diagnosis.ordinary_give import GIVE, told_as_ordinary
+from armscope.diagnosis.summary.soft_drives import GIVE, _softest, little_give_instead
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations
@@ -16,9 +16,7 @@ from armscope.inference.search import Search
 from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING
 
 ROWS, NOISE = 300, 0.1
-SPACE: Any = SimpleNamespace(
-    placed=[SimpleNamespace(effect=e) for e in (JOINT_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING)]
-)
+PLACED = [SimpleNamespace(effect=effect) for effect in (JOINT_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING)]
 
 
 def searched(beam_itself: bool) -> tuple[Search, Hypothesis]:
@@ -43,15 +41,19 @@ def searched(beam_itself: bool) -> tuple[Search, Hypothesis]:
     return search, search.best()
 
 
-def test_two_soft_springs_are_no_bending_beam() -> None:
+def test_two_soft_springs_may_stand_in_a_bending_beams_place() -> None:
     search, found = searched(beam_itself=False)
     assert found.candidates == {2}  # one name costs less than two
-    told = told_as_ordinary(search, SPACE, found)
-    assert not told.candidates
-    assert told.background[GIVE]
+    little = little_give_instead(search, found, 2)
+    assert little is not None
+    assert not little.candidates
+    assert little.background[GIVE]
+    space: Any = SimpleNamespace(families=search.space.families, candidates=search.space.candidates, placed=PLACED)
+    assert _softest(space, little) in (0, 1)
+    assert little_give_instead(search, little, 2) is None
 
 
-def test_a_beam_that_bends_keeps_its_name() -> None:
+def test_a_beam_that_bends_has_no_such_rival() -> None:
     search, found = searched(beam_itself=True)
     assert found.candidates == {2}
-    assert told_as_ordinary(search, SPACE, found) is found
+    assert little_give_instead(search, found, 2) is None

@@ -1,0 +1,75 @@
+"""What soft drives explain as well as a link that bends: most of what an arm gives way is theirs.
+
+Two soft joints move the tool much as the bending of the link between them does, and one name for the link costs less
+than one for each of them. So a link is asked whether all joints and links that give way a little, as in any arm, do as
+well in its place.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from armscope.diagnosis.model_space import EffectSpace
+from armscope.diagnosis.state import DiagnosisState
+from armscope.inference.edits import Edits
+from armscope.inference.evidence import Hypothesis
+from armscope.inference.search import Search
+from armscope.physics.backgrounds import ELASTIC, FAMILIES
+from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING
+from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative
+
+GIVE = FAMILIES.index(ELASTIC)
+LOOK_AT_DRIVES = "See first whether drives give way: load the arm, and measure at each joint how far it turns."
+CURE_OF_DRIVES = "Only if no drive turns by what is told here:"
+
+
+def told_by_drives(state: DiagnosisState) -> dict[int, Alternative]:
+    """The drive that gives way most where all give way a little, as the alternative of links that bend; by candidate.
+
+    Args:
+        state: the finished selection.
+
+    Returns:
+        Alternatives; none where a little give everywhere is in the model anyway, or rows tell it from the link.
+    """
+    found = {}
+    for effect in state.best.chosen:
+        if state.space.placed[effect.candidate].effect is LINK_BENDING:
+            little = little_give_instead(Search.on(state.problem), state.best, effect.candidate)
+            drive = None if little is None else _softest(state.space, little)
+            if little is not None and drive is not None:
+                gap = float(state.best.log_posterior - little.log_posterior)
+                name, place = JOINT_COMPLIANCE.name, state.space.placed[drive].location
+                driver = state.space.placed[drive].driver
+                found[effect.candidate] = Alternative(name, place, ELASTIC, gap, driver, max(gap, 0.0))
+    return found
+
+
+def little_give_instead(edits: Edits, hypothesis: Hypothesis, link: int) -> Hypothesis | None:
+    """A hypothesis with a little give everywhere in a link's place, if it is not told from it at odds of 20 to 1.
+
+    Args:
+        edits: of the problem that the hypothesis is of.
+        hypothesis: that holds the link.
+        link: number of its candidate.
+
+    Returns:
+        The other hypothesis; None where rows tell the two apart, or the first holds a little give already.
+    """
+    if hypothesis.background[GIVE]:
+        return None
+    rest, sizes = edits.without(hypothesis, [link]), range(1, edits.space.families[GIVE].sizes)
+    best = max((edits.with_background(rest, GIVE, size) for size in sizes), key=lambda h: h.log_posterior)
+    return best if best.log_posterior > hypothesis.log_posterior - INDISTINGUISHABLE_NATS else None
+
+
+def _softest(space: EffectSpace, hypothesis: Hypothesis) -> int | None:
+    """The candidate of the drive that moves the tool most in a hypothesis without names for drives."""
+    family = set(space.families[GIVE].columns.tolist())
+    drives = [
+        n
+        for n, placed in enumerate(space.placed)
+        if placed.effect is JOINT_COMPLIANCE and set(space.candidates[n].columns.tolist()) <= family
+    ]
+    sizes = [float(np.abs(hypothesis.means(space.candidates[n].columns)).max()) for n in drives]
+    return drives[int(np.argmax(sizes))] if drives else None
