@@ -127,7 +127,7 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
     return bool(along > 0)
 
 
-def at_least_load(problem: Problem, hypothesis: Hypothesis, zero: int) -> tuple[float, float] | None:
+def zero_without_load(problem: Problem, hypothesis: Hypothesis, zero: int) -> tuple[float, float] | None:
     """A joint's zero, mm at the tool, by what turns it where its load is least, with its standard error.
 
     A curve of load holds a constant in its bumps, too: what is a zero and what is the curve's, its coefficients do not

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.diagnosis.constants import NAMING
-from armscope.diagnosis.curve_shapes import DRIVE, at_least_load, rest_of, straightened, with_main_shapes
+from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes, zero_without_load
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.plain_geometry import as_plain_geometry
 from armscope.inference.constants import PRIORS
@@ -95,7 +95,7 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
 
 def _is_of_its_curve(problem: Problem, hypothesis: Hypothesis, number: int, left: float) -> bool:
     """Whether a zero may be a part of the curve of its joint's load: without a load it does not stand out."""
-    at_rest = at_least_load(problem, hypothesis, number)
+    at_rest = zero_without_load(problem, hypothesis, number)
     if at_rest is None:
         return False
     zero, error = np.abs(at_rest)
