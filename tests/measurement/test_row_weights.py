@@ -31,3 +31,14 @@ def test_values_that_only_one_channel_sees_take_some_of_its_noise_up() -> None:
 
 def test_few_of_many_rows_hold_fewer_numbers_than_the_model_has_values_and_still_count() -> None:
     assert scale_of_turns(21, 102) / scale_of_turns(21, 0) == pytest.approx(np.sqrt(0.5))
+
+
+def test_rows_that_are_left_out_count_nothing_in_any_channel_and_the_others_as_before() -> None:
+    rng = np.random.default_rng(4)
+    left = {POSITIONS: rng.normal(0, 1e-4, (30, 3)), ORIENTATIONS: rng.normal(0, 1e-3, (30, 3))}
+    weights = RowNoise(np.ones(30), np.ones(30)).weights(ChannelResiduals(left, {}), 0.0)
+    out = np.arange(30) < 4
+    for before, after in zip(weights.of_channels, weights.without(out).of_channels, strict=True):
+        assert (before.weight[out] > 0).all()
+        assert not after.weight[out].any()
+        np.testing.assert_array_equal(after.weight[~out], before.weight[~out])

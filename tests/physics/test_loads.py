@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE
-from armscope.physics.loads import STATED_MASSES, mass_errors
+from armscope.physics.loads import STATED_MASSES, mass_errors, torque_stderr
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.model_file import load_model, save_model
 from armscope.physics.payload import payload_errors
@@ -110,3 +111,13 @@ def test_a_model_with_loads_in_error_is_read_back(tmp_path: Path) -> None:
     read = load_model(tmp_path / "model.yaml")
     np.testing.assert_allclose(predict(read, table), predict(model, table), rtol=0, atol=1e-12)
     assert np.abs(predict(model, table) - predict(replace(model, background=()), table)).max() > 1e-6
+
+
+def test_a_loads_standard_error_is_how_it_varies_with_masses_that_are_off_each_by_itself() -> None:
+    arm, draws = arm_named("six-axis"), 300
+    table = replace(full_table(arm, 20, seed=5), payload=None)
+    shares = PLAUSIBLE.mass_share * np.random.default_rng(1).normal(size=(draws, arm.n_joints))
+    loads = [Scene(heavier(arm, each), table).torques[:, 1] for each in shares]
+    np.testing.assert_allclose(torque_stderr(Scene(arm, table), 2), np.std(loads, axis=0), rtol=0.2)
+    measured = replace(table, torque=Scene(arm, table).torques)
+    assert not torque_stderr(Scene(arm, measured), 2).any()

@@ -175,8 +175,8 @@ def _of_the_target(model: FittedModel) -> tuple[str, ...]:
         INSTRUMENT_SCALE: "the model has the instrument's scale off: what else it holds may be the instrument's, too, "
         "and moves a good arm wrongly; check it first (a scale bar), measure and diagnose again",
     }
-    effects = [part.placed.effect for part in model.parts]
-    return tuple(note for effect, note in held.items() if effect in effects)
+    effects = [part.placed.name for part in model.parts]
+    return tuple(note for effect, note in held.items() if effect.name in effects)
 
 
 def _foretold(identified: Identified, measured: bool) -> tuple[str, ...]:

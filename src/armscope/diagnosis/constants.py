@@ -127,6 +127,12 @@ class LoopBudget(Constants):
         "share of them that may stay far off where a jump is taken to explain them",
         "judgement: most are explained, or it is no explanation",
     )
+    at_turn: float = constant(
+        2.0,
+        "within which of zero a load may have the other side than computed",
+        "convention: one load in twenty lies farther from what was computed",
+        unit="standard errors",
+    )
     scatter_rows: int = constant(4000, "on which scatter is looked for", "judgement: time", unit="rows")
 
 

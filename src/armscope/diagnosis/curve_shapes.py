@@ -17,11 +17,10 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import as_response
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.physics.elastic import JOINT_COMPLIANCE
-from armscope.physics.freeform import REST_OF_LOAD
+from armscope.physics.freeform import OF_LOAD, REST_OF_LOAD
+from armscope.physics.geometric import JOINT_OFFSET
 
 DRIVE = JOINT_COMPLIANCE.name
-OF_LOAD = ("load", REST_OF_LOAD)
-"""Variants of curves whose line is a compliance, known by its direction."""
 
 
 def straightened(problem: Problem, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesis:
@@ -126,6 +125,34 @@ def _along_load(M: Array, mean: Array, line: int, constant: Sequence[int]) -> bo
         if M[n, n] > 0:  # else the frames are the constant
             along = along - M[line, n] / M[n, n] * (M[n] @ mean)
     return bool(along > 0)
+
+
+def zero_without_load(problem: Problem, hypothesis: Hypothesis, zero: int) -> tuple[float, float] | None:
+    """A joint's zero, mm at the tool, by what turns it where its load is least, with its standard error.
+
+    A curve of load holds a constant in its bumps, too: what is a zero and what is the curve's, its coefficients do not
+    tell. But nothing that follows the load is left without it.
+
+    Args:
+        problem: the sums, priors and costs.
+        hypothesis: that holds its column.
+        zero: the candidate's number.
+
+    Returns:
+        Zero and error; None of what is no zero, or has no curve of load beside it.
+    """
+    candidates, scale = problem.space.candidates, problem.scale
+    own = candidates[zero]
+    curves = [c for c in (candidates[n] for n in hypothesis.candidates) if c.location == own.location]
+    at_rest = [(c.columns, c.at_rest) for c in curves if c.at_rest is not None]
+    if own.kind != JOINT_OFFSET.name or not at_rest:
+        return None
+    ((columns, does),) = at_rest
+    every = np.union1d(columns, own.columns)
+    weights = np.isin(every, own.columns).astype(float)
+    weights[np.searchsorted(every, columns)] = does * scale[own.columns] / scale[columns]
+    error = np.sqrt(weights @ hypothesis.covariance(every) @ weights)
+    return float(weights @ hypothesis.means(every)), float(error)
 
 
 def rest_of(problem: Problem, hypothesis: Hypothesis, line: int) -> list[int]:

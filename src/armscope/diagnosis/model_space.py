@@ -37,8 +37,9 @@ from armscope.physics.backgrounds import (
 from armscope.physics.drift import BASE_DRIFT
 from armscope.physics.effect import Placed, clash, region
 from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING, UNKNOWN_MASSES
-from armscope.physics.freeform import follows_own_angle, spans_half_a_turn
+from armscope.physics.freeform import OF_LOAD, follows_own_angle, spans_half_a_turn
 from armscope.physics.geometric import JOINT_OFFSET
+from armscope.physics.least_load import at_least_load
 from armscope.physics.soft_start import SOFT_START
 from armscope.physics.tilting import BASE_COMPLIANCE
 from armscope.physics.transmission import BACKLASH, GEAR_ECCENTRICITY
@@ -181,6 +182,7 @@ def _candidates(
                 refines=coarse.get(p.key) if p.refinement and p.variant == "angle" else None,
                 removed_with=removed_with.get(number, frozenset()),
                 summed=_adding_up(layout, p, forms.get(p.key, ())),
+                at_rest=at_least_load(p) if curve and p.variant in OF_LOAD else None,
             )
         )
     return tuple(candidates)

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.diagnosis.constants import NAMING
-from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes
+from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes, zero_without_load
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.plain_geometry import as_plain_geometry
 from armscope.inference.constants import PRIORS
@@ -75,6 +75,7 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
     """
     unnamed = [n for n in _unnamed(problem, hypothesis) if problem.space.candidates[n].variant != SOFT_START]
     left, beside = _left_by_free_backgrounds(problem, hypothesis), _left_by_names(problem, hypothesis)
+    unnamed = [n for n in unnamed if not _is_of_its_curve(problem, hypothesis, n, beside)]
     drives = [number for number in unnamed if problem.space.candidates[number].kind == DRIVE]
     worth = {n: beside if problem.is_free(n) else left for n in unnamed if n not in drives}
     added = _standing_out(problem, hypothesis, worth)
@@ -90,6 +91,15 @@ def _promoted(problem: Problem, hypothesis: Hypothesis) -> Hypothesis:
         if weakest is None or lost[weakest] > GIVES_NATS:
             return _with_soft_starts(problem, promoted, left)
         added.remove(weakest)
+
+
+def _is_of_its_curve(problem: Problem, hypothesis: Hypothesis, number: int, left: float) -> bool:
+    """Whether a zero may be a part of the curve of its joint's load: without a load it does not stand out."""
+    at_rest = zero_without_load(problem, hypothesis, number)
+    if at_rest is None:
+        return False
+    zero, error = np.abs(at_rest)
+    return bool(zero < NAMING.stands_out * left or (zero / error) ** 2 / 2 < NAMING.stands_out_nats)
 
 
 def _with_soft_starts(problem: Problem, hypothesis: Hypothesis, left: float) -> Hypothesis:

@@ -13,8 +13,8 @@ from armscope.core.types import Indices, Progress
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.errors_of_loads import OF_PAYLOADS
 from armscope.diagnosis.selection_loop import SelectionLoop
+from armscope.diagnosis.sided_by_loads import SelectionWithSidesOfLoads
 from armscope.diagnosis.state import Selected
-from armscope.diagnosis.sustained_outliers import SelectionWithSustainedOutliers
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.inference.additions import best_additions
 from armscope.inference.search import Search
@@ -46,11 +46,11 @@ def select(
         The selection with its problem, model, weights and sums per block.
     """
     if len(table) <= LOOP.sample_rows:
-        return SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress).run()
+        return SelectionWithSidesOfLoads(start, table, noise, frames, block_of_row, progress).run()
     rows = some_rows(table.recordings, LOOP.sample_rows, LOOP.rows_of_a_group)
-    small = SelectionWithSustainedOutliers(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
+    small = SelectionWithSidesOfLoads(start, table.rows(rows), noise, frames, block_of_row[rows], progress)
     small.search(of_a_sample=True)
-    whole = SelectionWithSustainedOutliers(start, table, noise, frames, block_of_row, progress)
+    whole = SelectionWithSidesOfLoads(start, table, noise, frames, block_of_row, progress)
     whole.follow(small, _promising(small))
     background = small.best.background
     del small  # what it keeps of its rows and columns would take as much memory as all else

@@ -49,6 +49,7 @@ class Candidate:
         refines: the candidate of which this is a finer form.
         removed_with: candidates with which, one at a time, it is taken out, too.
         summed: columns of a background that add up to its own, where that has them in place of its own.
+        at_rest: (c,) of a curve of a load, what each coefficient does, SI units, where that is least; None of others.
     """
 
     kind: str
@@ -76,6 +77,7 @@ class Candidate:
     refines: int | None = None
     removed_with: frozenset[int] = NONE
     summed: frozenset[int] = NONE
+    at_rest: Array | None = None
 
     @property
     def held(self) -> Indices:

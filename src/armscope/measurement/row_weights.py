@@ -110,6 +110,10 @@ class ChannelWeights:
         nominal = np.ones(len(self.weight)) if self.nominal_weight is None else self.nominal_weight
         return replace(self, weight=np.where(which, nominal, self.weight))
 
+    def without(self, which: NDArray[np.bool_]) -> ChannelWeights:
+        """The weights with some rows (N,) left out."""
+        return replace(self, weight=np.where(which, 0.0, self.weight))
+
     def take(self, rows: Indices, share: float) -> ChannelWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""
         nominal = None if self.nominal_weight is None else self.nominal_weight[rows] / share
@@ -182,6 +186,10 @@ class RowWeights:
     def trusting(self, which: NDArray[np.bool_]) -> RowWeights:
         """The weights with some rows' (N,) as if they were no bad shots."""
         return replace(self, of_channels=tuple(each.trusting(which) for each in self.of_channels))
+
+    def without(self, which: NDArray[np.bool_]) -> RowWeights:
+        """The weights with some rows (N,) left out."""
+        return replace(self, of_channels=tuple(weights.without(which) for weights in self.of_channels))
 
     def take(self, rows: Indices, share: float = 1.0) -> RowWeights:
         """The weights of some rows, each standing for 1 / ``share`` rows."""

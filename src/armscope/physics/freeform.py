@@ -29,6 +29,8 @@ CONTEXT = ("time", "temperature")
 """The variants of curves of what is recorded beside the angles; columns of the same name."""
 REST_OF_LOAD = "rest of load"
 """The variant of a curve of load beside the line that it mostly is."""
+OF_LOAD = ("load", REST_OF_LOAD)
+"""Variants of curves whose line is a compliance, known by its direction."""
 
 
 def waves(recordings: Recordings) -> int:

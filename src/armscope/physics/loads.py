@@ -13,9 +13,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from armscope.core.types import Array
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Cure, Driver, Effect, Part, Placed, Product, Term
+from armscope.physics.loaded_arm import LoadedArm
 from armscope.physics.placing import nowhere
 from armscope.recordings import Recordings
 from armscope.robot import Arm
@@ -77,6 +79,21 @@ def _mass_error(location: str, known: Sequence[Product], usual: float, heavier: 
     products = (Product(g.direction, Driver(heavier, (g.driver, *which)), g.factor) for g in known)
     share = Term("share", "of its mass", 1.0, tuple(products), usual)
     return Placed(STATED_MASSES, location, (share,), (usual,), "loads")
+
+
+def torque_stderr(scene: LoadedArm, joint: int) -> Array:
+    """(N,) standard error of a motor's load (from 1) by stated masses, N m; none of a recorded load.
+
+    Each mass is off by itself: all links heavier alike make the load larger, which turns no side.
+    """
+    if scene.recordings.torque is not None:
+        return np.zeros(len(scene))
+    load = Driver("gravity torque", (joint,))
+    links = [link for link in range(1, scene.arm.n_joints + 1) if scene.arm.masses[link - 1] > 0]
+    by_share = [PLAUSIBLE.mass_share * scene.driver(Driver("heavier link", (load, link))) for link in links]
+    if scene.recordings.payload is not None:
+        by_share.append(PLAUSIBLE.weighed_share * scene.driver(Driver("heavier by share", (load,))))
+    return np.asarray(np.sqrt(np.sum(np.square(by_share), axis=0)))
 
 
 def gravity_that_leans(known: Sequence[Product]) -> tuple[Term, Term]:

@@ -105,7 +105,7 @@ class Reader:
         return Product(direction, self._driver(driver, place), self._finite(factor, place))
 
     def _location(self, location: Any, axis: Any, place: str) -> str:
-        axes = {"instrument": ("scale", *AXES[3:]), "motor": ("turn",), "payload": ("mass",)}
+        axes = {"instrument": ("scale", "height", *AXES[3:]), "motor": ("turn",), "payload": ("mass",)}
         kind = self._frame(location, ("base", "tool", "instrument", "payload", "joint", "link", "motor"), place)
         if axis not in axes.get(kind, AXES):
             raise InputError(self.source, place, axis, f"at {location} the axis is one of {axes.get(kind, AXES)}")

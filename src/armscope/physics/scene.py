@@ -27,6 +27,7 @@ from armscope.robot.kinematics import joint_axes, joint_jacobian, turn_jacobian
 
 INSTRUMENT = "instrument"
 SCALE = Direction(INSTRUMENT, "scale")
+HEIGHT = Direction(INSTRUMENT, "height")
 FRAMES = ("base", "joint", "link", "tool")
 """Kinds of places that a twist moves; other directions are seen by instruments that do not look at the tool."""
 
@@ -119,16 +120,22 @@ class Scene(LoadedArm):
         elif place.kind in FRAMES:
             yield direction.location, AXES.index(direction.axis), 1.0
 
-    def stretch(self, parts: Sequence[Part]) -> float:
-        """The instrument's scale error of all parts together."""
+    def stretch(self, parts: Sequence[Part], along: Direction = SCALE) -> float:
+        """The instrument's scale error of all parts together, of all lengths or of heights."""
         return float(
             sum(
                 part.values[group.at] @ group.factors
                 for part in parts
                 for group in part.placed.driven
-                if group.direction == SCALE
+                if group.direction == along
             )
         )
+
+    @property
+    def up(self) -> Array:
+        """(3,) unit vector against gravity, base axes; none where nothing falls."""
+        size = float(np.linalg.norm(self.arm.gravity))
+        return np.zeros(3) if size == 0 else -self.arm.gravity / size
 
     def misread(self, parts: Sequence[Part]) -> Array | None:
         """(N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is."""
@@ -146,11 +153,11 @@ class Scene(LoadedArm):
         frames = chain(self.arm, self.recordings.motor_angles, self.twists(giving or parts))
         if not giving or np.abs(frames.tool - self.nominal.tool).max() > FARTHEST_M:
             frames = chain(self.arm, self.recordings.motor_angles, self.twists(parts)) if giving else frames
-            return Posture(self, frames, self.stretch(parts), self.misread(parts))
+            return Posture(self, frames, self.stretch(parts), self.stretch(parts, HEIGHT), self.misread(parts))
         # what only gives way moves the arm by little: turned frames and tools, which imitate each other, stay out of it
         bent = self._bent(frames)
         frames = chain(self.arm, self.recordings.motor_angles, bent.twists(parts))
-        return Posture(bent, frames, self.stretch(parts), self.misread(parts))
+        return Posture(bent, frames, self.stretch(parts), self.stretch(parts, HEIGHT), self.misread(parts))
 
 
 FARTHEST_M = 0.2
@@ -182,6 +189,7 @@ class Posture:
         scene: rows and drivers.
         frames: where the frames stand, base axes.
         stretch: relative length error of the instrument.
+        heightened: relative error of its heights, beside that.
         misread: (N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is.
         moved, turned: what was computed of `displacement` and `turn`.
     """
@@ -189,6 +197,7 @@ class Posture:
     scene: Scene
     frames: Chain
     stretch: float = 0.0
+    heightened: float = 0.0
     misread: Array | None = None
     moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
     turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
@@ -202,7 +211,14 @@ class Posture:
     @property
     def tool(self) -> Array:
         """(N, 3) tool points as the instrument sees them, in base axes, m."""
-        return self.frames.tool * (1 + self.stretch)
+        points = self.frames.tool * (1 + self.stretch)
+        return points + self.heightened * self._heights if self.heightened else points
+
+    @property
+    def _heights(self) -> Array:
+        """(N, 3) the part of tool points along the vertical, m."""
+        up = self.scene.up
+        return np.outer(self.frames.tool @ up, up)
 
     def displacement(self, direction: Direction) -> Array | None:
         """(N, 3) displacement of the tool point per unit of a direction, m; None where nothing moves."""
@@ -228,7 +244,7 @@ class Posture:
     def _displacements(self, location: str) -> dict[Direction, Array]:
         kind = Location.of(location).kind
         if kind == INSTRUMENT:
-            return {SCALE: self.frames.tool}
+            return {SCALE: self.frames.tool, HEIGHT: self._heights}
         if kind == "motor":
             return _by_motor(joint_jacobian(self.frames) @ self.scene.arm.actuation)
         return _by_axis(location, twist_jacobian(self.frames, location)) if kind in FRAMES else {}

@@ -26,8 +26,8 @@ class Direction:
     Attributes:
         location: "base", "joint j", "link j", "tool": a frame of the chain (see `armscope.robot.Chain.frame`);
             "motor j": motor angle j, which turns chain joints through the arm's actuation; "instrument"; "payload".
-        axis: one of `AXES` for a frame, "turn" for a motor, "scale" for the instrument, "mass" for the payload; any
-            other moves no frame: only readings that know it see it (`armscope.measurement.channel`).
+        axis: one of `AXES` for a frame, "turn" for a motor, "scale" and "height" for the instrument, "mass" for the
+            payload; any other moves no frame: only readings that know it see it (`armscope.measurement.channel`).
     """
 
     location: str

@@ -13,12 +13,18 @@ from armscope.physics.effect import ONE, Driver, Placed
 from armscope.physics.scene import Scene
 from armscope.verdict.effects import Curve
 
+SIDE = "load side"
+"""The driver of play by a load, which has a value on either side of it."""
+
 
 def source_of(placed: Placed) -> Driver | None:
     """The one driver that all of an effect's terms are functions of; None where there are several or none."""
     drivers = {product.driver for term in placed.terms for product in term.products}
     sources = {_root(driver) for driver in drivers if driver != ONE}
-    return sources.pop() if len(sources) == 1 else None
+    if placed.parametrisation == "curve":  # one of load holds a step where the load changes its side
+        sources = {Driver("torque", each.arguments) if each and each.kind == SIDE else each for each in sources}
+    source = sources.pop() if len(sources) == 1 else None
+    return None if source is None or source.kind == SIDE else source
 
 
 def _root(driver: Driver) -> Driver | None:
@@ -26,7 +32,7 @@ def _root(driver: Driver) -> Driver | None:
         return Driver("angle", (driver.arguments[0],))
     if driver.kind in ("spline", "held"):
         return _root(driver.arguments[0]) if isinstance(driver.arguments[0], Driver) else None
-    return driver if KINDS[driver.kind].unit else None
+    return driver if KINDS[driver.kind].unit or driver.kind == SIDE else None
 
 
 def curve_of(placed: Placed, values: Array, covariance: Array, scene: Scene) -> Curve | None:
@@ -79,6 +85,8 @@ def _value(driver: Driver, at: Array) -> Array:
         return np.cos(driver.number(1) * at)
     if driver.kind == "spline":
         return cubic_spline(at, driver.number(1), driver.number(2))
+    if driver.kind == SIDE:
+        return np.sign(at)
     return np.ones_like(at) if driver == ONE else at
 
 

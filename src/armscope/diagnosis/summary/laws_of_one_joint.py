@@ -12,6 +12,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.constants import NAMING
+from armscope.diagnosis.curve_shapes import zero_without_load
 from armscope.diagnosis.summary.rivals import Rival, discriminability, too_close
 from armscope.inference.constants import PRIORS
 from armscope.inference.edits import by_posterior
@@ -104,6 +105,8 @@ def _beside_zero(search: Search, base: Hypothesis, zero: int, laws: Collection[i
 def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequence[Rival]]) -> dict[int, Array]:
     """What the covariance of a law's values gains where another law of its joint could be a third one; of no curve.
 
+    A zero's gains what a curve of its joint's load could hold of it.
+
     Args:
         search: on the problem.
         best: the chosen hypothesis.
@@ -119,6 +122,10 @@ def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequen
         for rival in _unsettled_beside(search, best, number, rivals):
             away = (rival.hypothesis.means(columns) - told) / scale[columns] / INTERVAL
             extra += np.outer(away, away)
+        if (
+            at_rest := zero_without_load(search.problem, best, number)
+        ) is not None:  # a curve of load may hold the rest
+            extra += ((at_rest[0] - told) / scale[columns] / INTERVAL) ** 2
         gained[number] = extra
     return gained
 
