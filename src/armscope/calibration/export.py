@@ -14,7 +14,7 @@ from armscope.core.files import write_text, write_yaml, yaml_text
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array
 from armscope.robot import Arm
-from armscope.robot.controllers import UR_KINEMATICS, ur_kinematics
+from armscope.robot.controllers import UR_KINEMATICS, ZEROS_IN_IT, ur_kinematics
 from armscope.robot.urdf_writing import (
     WrittenJoint,
     add_frame,
@@ -29,7 +29,6 @@ from armscope.robot.urdf_writing import (
 )
 
 TIP, TOOL = "calibrated_flange", "calibrated_tool"
-IN_PLACE_OF_ROWS = "In place of zeros and rows in the controller, never as well: it holds both."
 
 
 def export(calibration: Calibration, folder: Path | str, target: str | None = None) -> tuple[Path, ...]:
@@ -74,7 +73,7 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
         write_yaml(folder / "robot_urdf.yaml", {"name": name, **by_urdf, "tip": TIP, **common})
         written = ["robot.yaml", "robot.urdf", "robot_urdf.yaml"]
         if (kinematics := ur_kinematics(calibration.arm)) and calibration.state.constants.any():
-            write_text(folder / UR_KINEMATICS, f"# {IN_PLACE_OF_ROWS}\n{yaml_text(kinematics)}")
+            write_text(folder / UR_KINEMATICS, f"# {ZEROS_IN_IT}\n{yaml_text(kinematics)}")
             written.append(UR_KINEMATICS)
     write_yaml(folder / "frames.yaml", frames_content(calibration))
     return tuple(folder / name for name in [*written, "frames.yaml"])

@@ -19,7 +19,7 @@ from armscope.inference.constants import PRIORS
 from armscope.inference.normal_equations import NormalEquations, column_scales
 from armscope.measurement.channel import ChannelResiduals
 from armscope.measurement.row_weights import RowNoise, RowWeights
-from armscope.physics.effect import Part, Placed, Term
+from armscope.physics.effect import Part, Placed
 from armscope.physics.model import FittedModel
 from armscope.physics.parallel_axes import lengths_told_once
 
@@ -91,7 +91,7 @@ def refit(
     apart = lengths_told_once(model.arm, [_apart(placed, effects) for placed, _ in effects])
     effects = [(placed, size) for placed, (_, size) in zip(apart, effects, strict=True)]
     named = {term for placed, _ in effects for term in placed.terms}
-    kept = [[b for placed in family if size and (b := _without(placed, named))] for family, size in backgrounds]
+    kept = [[b for placed in family if size and (b := placed.without(named))] for family, size in backgrounds]
     background = [placed for family in kept for placed in family]
     parts = parameter_layout(frames, kept, [placed for placed, _ in effects])
     start = _start(model, background, effects)
@@ -166,23 +166,12 @@ def _with_tools_as_stated(problem: ModelFit, found: Refit, noise: float, table: 
     )
 
 
-def _without(placed: Placed, named: set[Term]) -> Placed | None:
-    """A background effect without the terms that a named effect has: one term, one value."""
-    kept = [n for n, term in enumerate(placed.terms) if term not in named]
-    if not kept:
-        return None
-    return replace(
-        placed, terms=tuple(placed.terms[n] for n in kept), prior_scale=tuple(placed.prior_scale[n] for n in kept)
-    )
-
-
 def _apart(placed: Placed, effects: Sequence[tuple[Placed, float]]) -> Placed:
     """A free curve without the terms that a named effect has, which is then the rest of it; others as they are."""
     if placed.parametrisation != "curve":
         return placed
-    return (
-        _without(placed, {t for other, _ in effects if other.parametrisation != "curve" for t in other.terms}) or placed
-    )
+    named = {t for other, _ in effects if other.parametrisation != "curve" for t in other.terms}
+    return placed.without(named) or placed
 
 
 def _start(model: FittedModel, background: Sequence[Placed], effects: Sequence[tuple[Placed, float]]) -> FittedModel:

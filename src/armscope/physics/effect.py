@@ -8,8 +8,8 @@ diagnosis multiplies the same drivers with the frames' Jacobians (`armscope.phys
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from armscope.core.location import Location
@@ -162,6 +162,15 @@ class Placed:
     def key(self) -> tuple[str, str]:
         """(effect, location), as a verdict names it."""
         return self.effect.name, self.location
+
+    def without(self, terms: Collection[Term]) -> Placed | None:
+        """The effect without some terms; None if it has no others."""
+        kept = [n for n, term in enumerate(self.terms) if term not in terms]
+        if not kept:
+            return None
+        return replace(
+            self, terms=tuple(self.terms[n] for n in kept), prior_scale=tuple(self.prior_scale[n] for n in kept)
+        )
 
     @functools.cached_property
     def driven(self) -> tuple[DrivenTogether, ...]:

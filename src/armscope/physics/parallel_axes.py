@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 from armscope.core.location import Location
 from armscope.physics.effect import ONE, Placed, Term
@@ -23,7 +22,7 @@ def lengths_told_once(arm: Arm, named: Sequence[Placed]) -> list[Placed]:
     shifts = {term: joint for placed in named for term in placed.terms if (joint := _shifted_along_its_axis(term))}
     last = {stretch[joint - 1]: joint for joint in sorted(shifts.values())}
     said = {term for term, joint in shifts.items() if last[stretch[joint - 1]] != joint}
-    return [_without(placed, said) for placed in named]
+    return [placed.without(said) or placed for placed in named]
 
 
 def _parallel_stretches(arm: Arm) -> list[int]:
@@ -42,12 +41,3 @@ def _shifted_along_its_axis(term: Term) -> int:
     place = Location.of(product.direction.location)
     own = product.direction.axis == "tz" and product.driver == ONE and place.kind == "joint"
     return place.number if own else 0
-
-
-def _without(placed: Placed, said: set[Term]) -> Placed:
-    kept = [n for n, term in enumerate(placed.terms) if term not in said]
-    if len(kept) in (0, len(placed.terms)):
-        return placed
-    return replace(
-        placed, terms=tuple(placed.terms[n] for n in kept), prior_scale=tuple(placed.prior_scale[n] for n in kept)
-    )

@@ -17,6 +17,10 @@ from armscope.robot.arm import Arm
 
 UR_JOINTS = ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3")
 UR_KINEMATICS = "ur_kinematics.yaml"
+ZEROS_IN_IT = (
+    "Instead of resetting zeros and entering rows in the controller, never as well: it holds both, and done twice they "
+    "are off the other way."
+)
 HASH = "replace by the hash in your robot's own file of ur_calibration"
 """By which the driver compares the file with the robot: only the robot has it."""
 _UR = re.compile(r"\bur\s?\d+e?\b", re.IGNORECASE)

@@ -9,11 +9,6 @@ from armscope.robot.arm import build_arm
 from armscope.verdict.corrections import NUMBERS, changes, corrected_rows, zero_offsets
 from armscope.verdict.diagnosis import Diagnosis
 
-ZEROS_IN_IT = (
-    "Instead of resetting zeros and entering rows in the controller, never as well: it holds both, and done twice they "
-    "are off the other way."
-)
-
 
 def corrected_ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
     """`armscope.robot.controllers.ur_kinematics` of an arm whose rows and zeros are put right.

@@ -13,8 +13,8 @@ COLUMNS = ("effect", "location", "driver", "at", "at_unit", "value", "stderr", "
 def curves_table(verdict: Diagnosis) -> pd.DataFrame | None:
     """Every effect's curve over its driver, one row per point; None where there is none.
 
-    `value` is what is subtracted from a command: `zero_in_value` of it is the joint's own zero, which no other step of
-    the work order sets, and the rest the curve about its mean.
+    `value` is what is subtracted from a command: `zero_in_value` of it is constant, the joint's own zero where it
+    follows the joint's angle; no other step of the work order sets it, and the rest is the curve about its mean.
     """
     told = [(effect, effect.curve) for effect in verdict.effects if effect.curve is not None]
     if not told:

@@ -23,7 +23,8 @@ _CURES = {
     "describes this recording, not the arm.",
     "unknown": "Measure each joint named here by itself, in fine steps; until the cause is found, store the fitted "
     "curves (curves.csv) as correction tables, commanded = wanted - curve, or compensate for them in the commands "
-    "(`armscope compensate`). The tables hold the joints' own zeros where no other step sets them.",
+    "(`armscope compensate`). The tables hold what is constant in them, the joints' own zeros too, where no other step "
+    "sets it.",
 }
 """What mends a family where it has several members or small errors everywhere."""
 

@@ -205,7 +205,10 @@ def with_numbers(rule: str, parameters: Iterable[Parameter], effect: str) -> str
 
 
 def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
-    """Behind a rule that subtracts a curve: where its numbers are, and what of them is the joint's zero."""
+    """Behind a rule that subtracts a curve: where its numbers are, and what of them is constant.
+
+    Over a joint's own angle that is its zero; over its load it is the mean of what follows the load, too.
+    """
     if not _formula(rule).startswith("wanted - curve"):
         return ""
     if effect.curve is None:
@@ -214,7 +217,8 @@ def _where_its_curve_is(cause: Repair, effect: FoundEffect, rule: str) -> str:
     if not cause.zero:
         return there
     own = angle(cause.zero) if effect.curve.value_unit == "rad" else length(1e3 * cause.zero)
-    return f"{there} It holds the joint's own zero, {own}, too, which no other step sets."
+    constant = "a constant part" if effect.driver.startswith("load") else "the joint's own zero"
+    return f"{there} It holds {constant}, {own}, too, which no other step sets."
 
 
 def _beyond_the_rule(arm: Arm, cause: Repair, told: Mapping[str, Parameter]) -> str:

@@ -20,8 +20,8 @@ from armscope.report.sections.effect_cards import title_of
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
-from armscope.robot.controllers import UR_KINEMATICS
-from armscope.verdict.controllers import ZEROS_IN_IT, corrected_ur_kinematics
+from armscope.robot.controllers import UR_KINEMATICS, ZEROS_IN_IT
+from armscope.verdict.controllers import corrected_ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
