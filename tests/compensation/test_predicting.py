@@ -96,13 +96,16 @@ def test_a_model_that_follows_no_rows_says_nothing_of_ids(jumped, tmp_path):
         assert predict_file(tmp_path / "still.yaml", poses(tmp_path / "poses.csv", table, ids))[1] == []
 
 
-@pytest.mark.parametrize(
+in_the_order_of_rows = pytest.mark.parametrize(
     "placed",
     [
         lambda table: drift_with_pauses([Pause(20.0, "a", 500.0)], 1),
         lambda table: wander(table, [])[1],
     ],
 )
+
+
+@in_the_order_of_rows
 def test_what_wanders_in_the_order_of_rows_stays_as_the_last_row_of_a_run_found_it(jumped, tmp_path, placed):
     """With its pauses, and with the means that are taken from it run by run."""
     table = replace(jumped[1], run=np.repeat(["a", "b"], [20, 40]))
@@ -120,13 +123,7 @@ def test_what_wanders_in_the_order_of_rows_stays_as_the_last_row_of_a_run_found_
     assert notes[-1:] == ["no ids: what wanders in the order of rows stays as the last row found it"]
 
 
-@pytest.mark.parametrize(
-    "placed",
-    [
-        lambda table: drift_with_pauses([Pause(20.0, "a", 500.0)], 1),
-        lambda table: wander(table, [])[1],
-    ],
-)
+@in_the_order_of_rows
 def test_a_file_that_does_not_say_where_a_wander_ended_leaves_it_out_of_now_as_a_whole(jumped, tmp_path, placed):
     """As files of earlier versions do."""
     table = replace(jumped[1], run=np.repeat(["a", "b"], [20, 40]))
