@@ -19,11 +19,11 @@ ROWS, NOISE = 300, 0.1
 PLACED = [SimpleNamespace(effect=effect) for effect in (JOINT_COMPLIANCE, JOINT_COMPLIANCE, LINK_BENDING)]
 
 
-def searched(beam_itself: bool) -> tuple[Search, Hypothesis]:
+def searched(beam_itself: bool, own_share: float = 0.5) -> tuple[Search, Hypothesis]:
     """What a search says of two springs; of the beam itself, whose own share is what no springs do."""
     rng = np.random.default_rng(11)
     base, one, other, rest, own = rng.normal(size=(5, ROWS))
-    share = 0.5 if beam_itself else 0.03
+    share = own_share if beam_itself else 0.03
     beam = (one + other) / np.sqrt(2) + share * own
     X = np.column_stack([np.ones(ROWS), one, other, beam, base, rest])
     y = (0.5 * beam if beam_itself else 0.35 * (one + other)) + rng.normal(0, NOISE, ROWS)
@@ -57,3 +57,21 @@ def test_a_beam_that_bends_has_no_such_rival() -> None:
     search, found = searched(beam_itself=True)
     assert found.candidates == {2}
     assert little_give_instead(search, found, 2) is None
+
+
+def test_a_preference_that_rests_on_little_of_what_the_link_explains_is_none() -> None:
+    def gap_and_worth(own_share: float) -> tuple[bool, float, float]:
+        search, found = searched(True, own_share)
+        rest = search.without(found, [2])
+        gaps = [
+            found.log_posterior - search.with_background(rest, GIVE, size).log_posterior
+            for size in range(1, search.space.families[GIVE].sizes)
+        ]
+        return little_give_instead(search, found, 2) is None, min(gaps), found.log_posterior - rest.log_posterior
+
+    told, gap, worth = gap_and_worth(0.05)
+    assert 3.0 < gap < 0.03 * worth
+    assert not told
+    told, gap, worth = gap_and_worth(0.1)
+    assert gap > 0.03 * worth
+    assert told

@@ -38,6 +38,11 @@ class TellingRules(Constants):
     parallel_rad: float = constant(
         0.02, "between axes that count as parallel", "judgement: far beyond what a drawing is off", unit="rad"
     )
+    unlawful_give: float = constant(
+        0.03,
+        "of the nats that a link's bending is worth, within which soft drives explain the rows as well",
+        "judgement: a torque that is off by a sixth, as masses are, leaves as much; with other simulators' arms in view",
+    )
     law_of_scatter_nats: float = constant(
         5.0,
         "by which scatter must grow with a load, its own or an unsaid one, to be told so",

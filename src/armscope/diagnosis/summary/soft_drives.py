@@ -2,7 +2,8 @@
 
 Two soft joints move the tool much as the bending of the link between them does, and one name for the link costs less
 than one for each of them. So a link is asked whether all joints and links that give way a little, as in any arm, do as
-well in its place.
+well in its place: within odds of 20 to 1, or within what no part keeps of its law. The torques are computed from
+stated masses, and no drive or beam is a spring exactly; a preference that rests on so little is no measurement.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
@@ -46,7 +48,7 @@ def told_by_drives(state: DiagnosisState) -> dict[int, Alternative]:
 
 
 def little_give_instead(edits: Edits, hypothesis: Hypothesis, link: int) -> Hypothesis | None:
-    """A hypothesis with a little give everywhere in a link's place, if it is not told from it at odds of 20 to 1.
+    """A hypothesis with a little give everywhere in a link's place, if rows hardly tell it from the link.
 
     Args:
         edits: of the problem that the hypothesis is of.
@@ -60,7 +62,9 @@ def little_give_instead(edits: Edits, hypothesis: Hypothesis, link: int) -> Hypo
         return None
     rest, sizes = edits.without(hypothesis, [link]), range(1, edits.space.families[GIVE].sizes)
     best = max((edits.with_background(rest, GIVE, size) for size in sizes), key=lambda h: h.log_posterior)
-    return best if best.log_posterior > hypothesis.log_posterior - INDISTINGUISHABLE_NATS else None
+    worth = hypothesis.log_posterior - rest.log_posterior
+    told_apart = max(INDISTINGUISHABLE_NATS, TELLING.unlawful_give * worth)
+    return best if best.log_posterior > hypothesis.log_posterior - told_apart else None
 
 
 def _softest(space: EffectSpace, hypothesis: Hypothesis) -> int | None:
