@@ -41,7 +41,7 @@ class TellingRules(Constants):
     unlawful_give: float = constant(
         0.03,
         "of the nats that a link's bending is worth, within which soft drives explain the rows as well",
-        "judgement: a torque that is off by a sixth, as masses are, leaves as much; with other simulators' arms in view",
+        "judgement: torques off by a sixth, as masses are, leave as much; with other simulators' arms in view",
     )
     law_of_scatter_nats: float = constant(
         5.0,
