@@ -13,6 +13,7 @@ from armscope.diagnosis.held_out import cross_validate
 from armscope.diagnosis.linearised_rows import LinearisedRows
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.alternatives import alternatives, inclusion_frequency, judged_elsewhere
+from armscope.diagnosis.summary.another_payload import beside_another_payload
 from armscope.diagnosis.summary.causes import causes
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.effects import (
@@ -157,7 +158,8 @@ def _summarised(basis: SummaryBasis) -> tuple[dict[int, FoundEffect], list[float
         c.candidate: summarise_effect(basis, c, part, share)
         for c, part, share in zip(chosen, fit.model.parts, shared, strict=True)
     }
-    return beside_the_stated_load(basis.state, basis.search, found), of_families
+    beside = beside_the_stated_load(basis.state, basis.search, found)
+    return beside_another_payload(basis.state, basis.search, beside), of_families
 
 
 def _validated(

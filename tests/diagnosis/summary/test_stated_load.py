@@ -40,7 +40,8 @@ def test_a_compliance_under_a_constant_load_says_what_it_would_be_under_another(
     for (_, place), (true,) in SOFT.items():
         told = soft[place]
         low, high = told.parameters[0].interval
-        assert low > true, "it was fitted to too small a load, of which its interval knows nothing"
+        value = told.parameters[0].value
+        assert low < true < 0.85 * value, "it was fitted to too small a load, of which its interval knows"
         assert "holds for the 150 kg that payload_kg states" in told.confirm
         model = half_as_heavy_again.model
         (part,) = [p for p in model.parts if p.placed.key == ("joint_compliance", place)]

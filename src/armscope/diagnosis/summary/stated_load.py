@@ -12,21 +12,19 @@ import numpy as np
 
 from armscope.check.constants import TABLE
 from armscope.core.types import Array
-from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.another_payload import is_told, payload_as_alternative, with_another_payload
 from armscope.diagnosis.summary.constants import TELLING
-from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Direction, Part
 from armscope.physics.loaded_arm import Misstated
 from armscope.physics.loads import STATED_MASSES, givings
-from armscope.physics.payload import PAYLOAD_ERROR
 from armscope.physics.placing import varies
 from armscope.physics.scene import Scene
 from armscope.recordings import Recordings
 from armscope.robot import Arm
-from armscope.verdict.effects import Alternative, FoundEffect
+from armscope.verdict.effects import FoundEffect
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,10 +59,10 @@ def beside_the_stated_load(
     """
     told = dict(found)
     load = stated_load(state.start.arm, state.recordings)
-    payload_told = any(search.candidate(number).kind == PAYLOAD_ERROR.name for number in state.best.candidates)
-    if load is None or payload_told:
+    if load is None or is_told(search, state.best):
         return told
-    rival = _payload_in_error(search, state)
+    other = with_another_payload(search, state.best)
+    rival = None if other is None else payload_as_alternative(search, state.best, other)
     for chosen, part in zip(state.best.chosen, state.fit.model.parts, strict=True):
         effect = told.get(chosen.candidate)
         changes = under_other_loads(part, state.start.arm, state.recordings, load)
@@ -138,24 +136,6 @@ def _loads(part: Part, scene: Scene) -> Array:
     for product in givings([part], torques_recorded=False):
         moved[product.direction] = moved.get(product.direction, 0.0) + product.factor * scene.driver(product.driver)
     return np.concatenate([each - each.mean() for each in moved.values()]) if moved else np.empty(0)
-
-
-def _payload_in_error(search: Search, state: DiagnosisState) -> Alternative | None:
-    """A payload other than stated, as an alternative, where to name it costs no more than alternatives do."""
-    best = state.best
-    numbers = [n for n, c in enumerate(search.space.candidates) if c.kind == PAYLOAD_ERROR.name]
-    if not numbers:
-        return None
-    beside = (
-        search.evaluated((*best.chosen, SelectedEffect(number, size)), best)
-        for number in numbers
-        for size in range(len(search.problem.sizes))
-    )
-    gap = best.log_posterior - max(each.log_posterior for each in beside)
-    if gap > NAMING.listed_nats:
-        return None
-    own = search.candidate(numbers[0])
-    return Alternative(own.kind, own.location, own.family, float(gap), own.driver, float(max(gap, 0.0)))
 
 
 def _in_words(load: StatedLoad, changes: list[float]) -> str:
