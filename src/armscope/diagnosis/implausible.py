@@ -113,9 +113,9 @@ def _against_its_load(space: EffectSpace, chosen: SelectedEffect, part: Part, fi
     """Whether what can only give way pushes: in a background, or surely about one of two axes."""
     if chosen.nested and space.nonnegative[chosen.candidate] and part.values[0] < 0:
         return True
-    if part.placed.variant != TWO_AXES:
+    if not part.placed.variant.startswith(TWO_AXES) or len(part.values) < 3:
         return False
-    pushing, stderr = stiffest_of_two(part.values, fit.covariance_of(part.placed))
+    pushing, stderr = stiffest_of_two(part.values[:3], fit.covariance_of(part.placed)[:3, :3])
     return pushing < -LOOP.surely_negative * stderr
 
 

@@ -57,7 +57,8 @@ def backgrounds(arm: Arm, recordings: Recordings, set_ups: SetUps = ()) -> dict[
     Returns:
         What every real arm and set-up has a little of, in the order of `FAMILIES`.
     """
-    pedestal = [placed for placed in tilting.BASE_COMPLIANCE.place(arm, recordings) if placed.variant]
+    bases = tilting.BASE_COMPLIANCE.place(arm, recordings)
+    pedestal = [placed for placed in bases if placed.variant in (tilting.TWO_AXES, tilting.THREE_AXES)]
     return {
         GEOMETRIC: constants(arm),
         ELASTIC: springs(arm, recordings),

@@ -78,6 +78,12 @@ class PlausibleSizes(Constants):
         3e-3, "backlash", "convention: makers state one to three minutes of arc; worn gears have ten", unit="rad"
     )
     wobble_rad: float = constant(3e-3, "tilt of a turning axis", "judgement: 0.1 mm run-out at 33 mm", unit="rad")
+    run_out_m: float = constant(
+        1e-3,
+        "by which a turning axis moves across",
+        "judgement: a tilt of a milliradian about a point that is a metre from the row's origin",
+        unit="m",
+    )
     drive_rad: float = constant(
         5e-3,
         "a drive's turn under its largest load",
@@ -105,6 +111,9 @@ class PlausibleSizes(Constants):
         "tilt of a bearing or of the base under its largest moment",
         "judgement: half of what a drive gives",
         unit="rad",
+    )
+    foot_m: float = constant(
+        1.0, "by which a base's origin is above the foot about which it tilts", "judgement: a pedestal", unit="m"
     )
     beam_rad: float = constant(2e-3, "turn of a link's end, fully loaded", "judgement: a bearing's", unit="rad")
     loose_target_m: float = constant(5e-4, "by which a target falls", "judgement: a nest's clearance", unit="m")

@@ -1,4 +1,4 @@
-"""Geometric effects: constant errors of the D-H rows, encoder zeros, axes that wobble, a linkage's bar lengths."""
+"""Geometric effects: constant errors of the D-H rows, encoder zeros, a linkage's bar lengths."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.physics.clause import Number, Told, swings, waves_column
+from armscope.physics.clause import Number, Told
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
@@ -18,8 +18,8 @@ from armscope.physics.joint_directions import directions_of_a_joint
 from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import Scene
+from armscope.physics.wobble import AXIS_WOBBLE
 from armscope.recordings import Recordings
-from armscope.recordings.motion import moving
 from armscope.robot import Arm
 from armscope.robot.denavit_hartenberg import row_twist
 from armscope.robot.parallelogram import forearm_deviation
@@ -152,51 +152,6 @@ BACKGROUND = Effect(
     "Geometric errors of tolerance size, as every arm has them.",
     "Compare with the maker's tolerances.",
     Cure("A geometric calibration takes them out."),
-)
-
-
-def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
-    for j in np.flatnonzero(moving(recordings.motor_angles @ arm.actuation.T)) + 1:
-        for per_turn in (1, 2):
-            terms = tuple(
-                term(
-                    f"{wave}_{axis}",
-                    "rad",
-                    (Direction(f"joint {j}", axis), Driver(f"chain {wave}", (int(j), per_turn))),
-                    plausible=PLAUSIBLE.wobble_rad,
-                )
-                for axis in ("rx", "ry")
-                for wave in ("cosine", "sine")
-            )
-            yield Placed(
-                AXIS_WOBBLE,
-                f"joint {j}",
-                terms,
-                (1.0,) * 4,
-                f"angle of joint {j}",
-                scanned=(("per_turn", "1/turn", per_turn),),
-                multiplicity=2,
-                variant=str(per_turn),
-                parametrisation="sine",
-                partly_unseen=True,  # half of a wave turns with the tool, whose offset is free, where no joint follows
-            )
-
-
-AXIS_WOBBLE = Effect(
-    "axis_wobble",
-    "geometric",
-    _place_wobbles,
-    "The joint's axis does not keep its direction while the joint turns (bearing run-out).",
-    "Turn the joint alone through a full turn with a dial gauge against a ground surface near its bearing.",
-    Cure(
-        "Replace or re-seat the bearing.",
-        otherwise="No motor turns across its axis: until then let the corrected model's inverse kinematics compute the "
-        "commands (nominal axis + fitted tilt; `armscope compensate`).",
-        change="bearing",
-        instruction="Re-seat or replace the bearing of {location}.",
-    ),
-    clauses=(swings("the axis of {location} tilts"),),
-    atlas=waves_column,
 )
 
 

@@ -21,6 +21,8 @@ TWO_AXES = "two axes"
 """The variant of a compliance that is not the same about x and y: pedestals, beds and housings are not round."""
 THREE_AXES = "three axes"
 """The variant of a base that has a moment about its own axis, too: an arm on a wall or a slope."""
+ABOUT_ITS_FOOT = "about its foot"
+"""Variants of a base that stands on a pedestal: its origin moves across as it tilts."""
 
 
 def _place_bearings(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
@@ -69,6 +71,9 @@ BY_AXES = {
     "compliance_x": "about x", "compliance_y": "about y", "compliance_z": "about z",
     "compliance_xy": "about x under a moment about y", "compliance_xz": "about x under a moment about z",
     "compliance_yz": "about y under a moment about z",
+    "shift": "its origin moves, about a foot below, by",
+    "shift_x": "its origin moves along y by", "shift_y": "its origin moves along x by",
+    "shift_xy": "its origin moves crosswise by",
 }  # fmt: skip
 """What the numbers of a symmetric compliance are called; each also says what is about the other axis."""
 
@@ -105,6 +110,27 @@ def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         terms = _by_axes(scene, "base", "xyz" if leans(scene) else "xy")
         variant = THREE_AXES if leans(scene) else TWO_AXES
         yield Placed(BASE_COMPLIANCE, "base", terms, (1.0,) * len(terms), "moment on the base", variant=variant)
+        if variant == TWO_AXES:
+            own = (_tilt(scene, "base"), _foot_shift(scene, "shift", "xx", "yy"))
+            yield Placed(BASE_COMPLIANCE, "base", own, (1.0,) * 2, "moment on the base", variant=ABOUT_ITS_FOOT)
+            shifts = {"compliance_x": ("xx",), "compliance_y": ("yy",), "compliance_xy": ("xy", "yx")}
+            own = (*terms, *(_foot_shift(scene, t.name.replace("compliance", "shift"), *shifts[t.name]) for t in terms))
+            about = f"{TWO_AXES}, {ABOUT_ITS_FOOT}"
+            yield Placed(BASE_COMPLIANCE, "base", own, (1.0,) * len(own), "moment on the base", variant=about)
+
+
+def _foot_shift(scene: Scene, name: str, *turns: str) -> Term:
+    """How far the base's origin moves across, as it tilts about a foot below it: height x tilt, m/(N m).
+
+    A turn "xy" is one about x under a moment about y. About x, what stands above the foot moves against y.
+    """
+    across = {"x": ("ty", -1.0), "y": ("tx", 1.0)}
+    moved = [
+        Product(Direction("base", axis), Driver("moment", ("base", "xy".index(under))), sign)
+        for about, under in turns
+        for axis, sign in (across[about],)
+    ]
+    return term(name, "m/(N m)", *moved, plausible=PLAUSIBLE.foot_m * tilt_per_moment(scene, "base"))
 
 
 def leans(scene: Scene) -> bool:

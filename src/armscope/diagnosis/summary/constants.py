@@ -43,6 +43,16 @@ class TellingRules(Constants):
         "of the nats that a link's bending is worth, within which soft drives explain the rows as well",
         "judgement: torques off by a sixth, as masses are, leave as much; with other simulators' arms in view",
     )
+    runs_round: float = constant(
+        2.45,
+        "standard errors within which a tilt's part that turns the other way is none",
+        "convention: 95 % of a point about zero in the plane lie within",
+    )
+    runs_round_at_least: float = constant(
+        0.5,
+        "of a tilt's size, within which that must be told",
+        "judgement: of what no row tells nothing is known to run round",
+    )
     law_of_scatter_nats: float = constant(
         5.0,
         "by which scatter must grow with a load, its own or an unsaid one, to be told so",

@@ -28,7 +28,7 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
     Returns:
         Values with standard errors, files' units.
     """
-    names, units, reading = _reading(placed)
+    names, units, reading = _reading(placed, values, covariance)
     read = reading(values)
     if not names:
         return ()
@@ -88,11 +88,16 @@ def undetermined(placed: Placed, covariance: Array) -> tuple[str, ...]:
     return tuple(t.name for t, error, limit in zip(placed.terms, stderr, limits, strict=True) if error > limit)
 
 
-def _reading(placed: Placed) -> tuple[list[str], list[str], Reading]:
+def _reading(placed: Placed, values: Array, covariance: Array) -> tuple[list[str], list[str], Reading]:
     if placed.parametrisation == "sine" and len(placed.terms) == 2:
         return ["amplitude", "phase"], ["rad", "rad"], _wave
     if placed.parametrisation == "sine":
-        return ["amplitude", "phase", "direction"], ["rad"] * 3, _turning_wave
+        names = ["amplitude", "phase", "direction", *["run_out"] * (len(placed.terms) > 4)]
+        units = ["mm" if name == "run_out" else "rad" for name in names]
+        if not _runs_round(values, covariance):
+            return names, units, _turning_wave
+        del names[1], units[1]
+        return names, units, _tilt_that_runs_round
     if placed.parametrisation == "curve":
         return [], [], lambda v: np.empty(0)  # a curve is told as a curve
     si = np.array([term.si for term in placed.terms])
@@ -106,15 +111,47 @@ def _wave(values: Array) -> Array:
 
 
 def _turning_wave(values: Array) -> Array:
-    """(cosine, sine) about x and about y as amplitude cos(k q - phase) about the best direction (cos, sin)."""
-    u, size, vt = np.linalg.svd(values.reshape(2, 2))
+    """(cosine, sine) about x and about y as amplitude cos(k q - phase) about the best direction (cos, sin).
+
+    Waves along x and y are a run-out, mm.
+    """
+    tilts, *shifts = values.reshape(-1, 2, 2)
+    u, size, vt = np.linalg.svd(tilts)
     direction = float(np.arctan2(u[1, 0], u[0, 0]))
     phase = float(np.arctan2(vt[0, 1], vt[0, 0]))
     if not -np.pi / 2 < direction <= np.pi / 2:
         # the opposite direction half a period later is the same wobble
         direction = direction - np.sign(direction) * np.pi
         phase = phase - np.sign(phase) * np.pi
-    return np.array([size[0], phase, direction])
+    return np.array([size[0], phase, direction, *map(_run_out_mm, shifts)])
+
+
+def _tilt_that_runs_round(values: Array) -> Array:
+    """(cosine, sine) about x and about y as a tilt of one size that leans, at angle zero, about a direction.
+
+    The longer half axis of an ellipse is too large for it: noise makes every circle an ellipse.
+    """
+    tilts, *shifts = values.reshape(-1, 2, 2)
+    x, y = max(_ROUND @ tilts.reshape(-1), key=np.linalg.norm)
+    return np.array([np.hypot(x, y), np.arctan2(y, x), *map(_run_out_mm, shifts)])
+
+
+_ROUND = 0.5 * np.array([[[1, 0, 0, 1], [0, -1, 1, 0]], [[1, 0, 0, -1], [0, 1, 1, 0]]])
+"""(cosine, sine) about x and about y as (x, y) of what turns against the joint and of what turns with it."""
+
+
+def _runs_round(values: Array, covariance: Array) -> bool:
+    """Whether a tilt keeps its size as the joint turns: what turns the other way is nothing that rows show."""
+    parts = _ROUND @ values[:4]
+    sizes = np.linalg.norm(parts, axis=1)
+    larger, smaller = np.argsort(-sizes)
+    stderr = float(np.sqrt(np.trace(_ROUND[smaller] @ covariance[:4, :4] @ _ROUND[smaller].T) / 2))
+    return bool(sizes[smaller] < TELLING.runs_round * stderr < TELLING.runs_round_at_least * sizes[larger])
+
+
+def _run_out_mm(shift: Array) -> float:
+    """The largest of waves along x and y (2, 2), m."""
+    return 1e3 * float(np.linalg.norm(shift, 2))
 
 
 def _spread(reading: Reading, values: Array, covariance: Array, circles: Array) -> Array:
