@@ -8,14 +8,24 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
+from armscope.diagnosis import Settings, diagnose
 from armscope.physics.effect import Part, Placed
 from armscope.physics.model import Base, FittedModel, predict
 from armscope.physics.scene import Scene
-from armscope.physics.tilting import BASE_COMPLIANCE, BEARING_COMPLIANCE, THREE_AXES, TWO_AXES, leans, stiffest_of_two
+from armscope.physics.tilting import (
+    ABOUT_ITS_FOOT,
+    BASE_COMPLIANCE,
+    BEARING_COMPLIANCE,
+    THREE_AXES,
+    TWO_AXES,
+    leans,
+    stiffest_of_two,
+)
 from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 from armscope.robot.arm import build_arm
+from tests.diagnosis.planted import Wanted, one_run, recorded
 from tests.world.by_hand import HandArm
 
 from .scenes import arm_named, full_table
@@ -84,9 +94,46 @@ def test_a_base_that_stands_upright_has_no_moment_about_its_axis() -> None:
     arm = arm_named("six-axis")
     table = of_one_run(arm)
     assert not leans(Scene(arm, table))
-    assert {placed.variant for placed in BASE_COMPLIANCE.place(arm, table)} == {"", TWO_AXES}
+    assert {placed.variant for placed in BASE_COMPLIANCE.place(arm, table)} == {
+        "",
+        TWO_AXES,
+        ABOUT_ITS_FOOT,
+        f"{TWO_AXES}, {ABOUT_ITS_FOOT}",
+    }
 
 
 def test_the_stiffest_axis_is_the_smaller_principal_value_with_its_error() -> None:
     value, error = stiffest_of_two(np.array([3.0, 1.0, 0.0]), np.diag([0.1, 0.2, 0.3]) ** 2)
     assert (value, error) == pytest.approx((1.0, 0.2))
+
+
+@pytest.mark.parametrize(("variant", "soft"), [("", [2e-9]), (TWO_AXES, [ABOUT_X, ABOUT_Y, ACROSS])])
+def test_a_base_that_tilts_about_its_foot_moves_the_base_across_by_height_and_tilt(
+    variant: str, soft: list[float]
+) -> None:
+    height = 0.8
+    arm = arm_named("six-axis")
+    table = of_one_run(arm)
+    bases = list(BASE_COMPLIANCE.place(arm, table))
+    about_origin = of_variant(bases, variant, "base")
+    about_foot = of_variant(bases, f"{variant}, {ABOUT_ITS_FOOT}" if variant else ABOUT_ITS_FOOT, "base")
+    assert about_foot.terms[: len(soft)] == about_origin.terms
+    tilted = moved(arm, table, Part(about_origin, np.array(soft)))
+    matrix = np.diag([*soft, *soft][:2])
+    matrix += np.array([[0, 1], [1, 0]]) * (soft[2] if len(soft) > 2 else 0.0)
+    moment = Scene(arm, table).moment("base")[:, :2]
+    tilts = np.concatenate([moment @ matrix, np.zeros((ROWS, 1))], axis=1)
+    across = moved(arm, table, Part(about_foot, np.array([*soft, *(height * np.array(soft))]))) - tilted
+    np.testing.assert_allclose(across, np.cross(tilts, [0.0, 0.0, height]), atol=1e-3 * np.abs(across).max())
+
+
+def test_a_pedestal_is_found_with_the_height_of_its_foot() -> None:
+    arm = arm_named("six-axis")
+    softness, height = 1e-8, 0.8
+    wanted: Wanted = {("base_compliance", "base"): [softness, softness * height]}
+    table = recorded(arm, one_run(arm, 250, 6), wanted, 0.02, 6)
+    (found,) = diagnose(arm, table, Settings(resamples=0, cross_validation=False)).effects
+    assert found.effect == "base_compliance"
+    told = {p.name: p.interval for p in found.parameters}
+    assert told["compliance"][0] < softness < told["compliance"][1]
+    assert told["shift"][0] < softness * height < told["shift"][1]

@@ -236,6 +236,11 @@ class NamingRules(Constants):
     minor_share_of_perfect_arm: float = constant(
         0.001, "the same in an arm that is perfect but for what is named", "judgement: there, less stands out"
     )
+    unlawful_give: float = constant(
+        0.03,
+        "of the nats that a link's bending is worth, within which soft drives explain the rows as well",
+        "judgement: torques off by a sixth, as masses are, leave as much; with other simulators' arms in view",
+    )
     listed_nats: float = constant(
         10.0, "alternatives that lose more are not listed", "judgement: 20000 to 1", unit="nats"
     )

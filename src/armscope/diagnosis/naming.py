@@ -13,6 +13,7 @@ import numpy as np
 
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.curve_shapes import DRIVE, rest_of, straightened, with_main_shapes, zero_without_load
+from armscope.diagnosis.drives_first import drives_first
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.plain_geometry import as_plain_geometry
 from armscope.inference.constants import PRIORS
@@ -41,6 +42,7 @@ def named(edits: Edits, space: EffectSpace, hypothesis: Hypothesis) -> Hypothesi
     Returns:
         The hypothesis with those names.
     """
+    hypothesis = drives_first(edits, hypothesis)
     while True:
         told = with_main_shapes(edits, straightened(edits.problem, space, hypothesis))
         promoted = _better_placed(edits, _promoted(edits.problem, told))

@@ -12,8 +12,9 @@ from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.physics.elastic import LINK_BENDING
-from armscope.physics.geometric import AXIS_WOBBLE, LINK_GEOMETRY
+from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.tilting import BEARING_COMPLIANCE
+from armscope.physics.wobble import AXIS_WOBBLE
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 LIKE_A_LINK = {effect.name for effect in (BEARING_COMPLIANCE, LINK_BENDING, AXIS_WOBBLE)}

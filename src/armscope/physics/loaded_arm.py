@@ -13,6 +13,7 @@ import numpy as np
 from armscope.core.location import Location
 from armscope.core.rotations import cross, turned_by
 from armscope.core.types import Array
+from armscope.physics.beam import bent, spread_weight
 from armscope.physics.terms import Driver
 from armscope.recordings import Recordings
 from armscope.robot import Arm, Chain, chain
@@ -215,26 +216,36 @@ class LoadedArm(ABC):
         return along
 
     def bending(self, link: int) -> Array:
-        """(N, 6) twist of the end of row ``link`` per unit 1/(E I), in the axes of `beam_site`.
-
-        Euler-Bernoulli cantilever of length L along e under the end force F and moment M of everything beyond:
-        turns L (M + L/2 e x F), moves L^2/2 M x e + L^3/3 F, parts along e left out.
-        """
+        """(N, 6) twist of the end of row ``link`` per unit 1/(E I), in the axes of `beam_site` (`bent`)."""
 
         def compute() -> Array:
             step = self.beam(link)
             length = float(np.linalg.norm(step))
             e = step / length
-            rotation, origin = self.loaded.frame(self.beam_site(link))
-            force, moment = self.wrenches
-            lever = self.loaded.joint_origin[:, link - 1] - origin
-            at_end = moment[:, link - 1] + cross(lever, force[:, link - 1])
-            f = np.einsum("nba,nb->na", rotation, force[:, link - 1])
-            m = np.einsum("nba,nb->na", rotation, at_end)
-            f, m = f - np.outer(f @ e, e), m - np.outer(m @ e, e)
-            turn = length * (m + length / 2 * cross(e, f))
-            move = length**2 / 2 * cross(m, e) + length**3 / 3 * f
-            return np.concatenate([move, turn], axis=1)
+            rotation, end = self.loaded.frame(self.beam_site(link))
+            weight, centre, force, moment = self._on_beam(link)
+            about_end = moment + cross(self.loaded.joint_origin[:, link - 1] - end, force)
+            own, beyond, turning = (np.einsum("nba,nb->na", rotation, load) for load in (weight, force, about_end))
+            return bent(e, length, beyond, turning, own, spread_weight(centre, e, length))
 
         twist: Array = self.remember(("bending", link), compute)
         return twist
+
+    def _on_beam(self, link: int) -> tuple[Array, Array, Array, Array]:
+        """Loads on row ``link``'s beam: its weight (N, 3), and the centre of that from the end in the axes there (3,).
+
+        Then force and moment (N, 3) of everything beyond, at joint ``link``; loads are in base axes. Of a modified row
+        the beam is the body before joint ``link``, else the one that this joint turns.
+        """
+        force, moment = (wrench[:, link - 1] for wrench in self.wrenches)
+        body = link - 1 if self.arm.is_modified_dh else link
+        if body == 0:
+            return np.zeros_like(force), np.zeros(3), force, moment
+        heavier = 1.0 if self.misstated.masses is None else 1 + self.misstated.masses[body - 1]
+        weights, moments = weight_of_link(self.arm, self.loaded, body)
+        own = np.broadcast_to(heavier * weights[body - 1], force.shape)
+        step = self.arm.before[link - 1] if self.arm.is_modified_dh else self.arm.behind[link - 1]
+        centre = step[:3, :3].T @ (self.arm.centres[body - 1] - step[:3, 3])
+        if self.arm.is_modified_dh:
+            return own, centre, force, moment
+        return own, centre, force - own, moment - heavier * moments[:, link - 1]

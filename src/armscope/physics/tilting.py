@@ -111,8 +111,8 @@ def _place_base(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         variant = THREE_AXES if leans(scene) else TWO_AXES
         yield Placed(BASE_COMPLIANCE, "base", terms, (1.0,) * len(terms), "moment on the base", variant=variant)
         if variant == TWO_AXES:
-            own = (_tilt(scene, "base"), _foot_shift(scene, "shift", "xx", "yy"))
-            yield Placed(BASE_COMPLIANCE, "base", own, (1.0,) * 2, "moment on the base", variant=ABOUT_ITS_FOOT)
+            even = (_tilt(scene, "base"), _foot_shift(scene, "shift", "xx", "yy"))
+            yield Placed(BASE_COMPLIANCE, "base", even, (1.0,) * 2, "moment on the base", variant=ABOUT_ITS_FOOT)
             shifts = {"compliance_x": ("xx",), "compliance_y": ("yy",), "compliance_xy": ("xy", "yx")}
             own = (*terms, *(_foot_shift(scene, t.name.replace("compliance", "shift"), *shifts[t.name]) for t in terms))
             about = f"{TWO_AXES}, {ABOUT_ITS_FOOT}"
@@ -126,9 +126,10 @@ def _foot_shift(scene: Scene, name: str, *turns: str) -> Term:
     """
     across = {"x": ("ty", -1.0), "y": ("tx", 1.0)}
     moved = [
-        Product(Direction("base", axis), Driver("moment", ("base", "xy".index(under))), sign)
-        for about, under in turns
-        for axis, sign in (across[about],)
+        Product(
+            Direction("base", across[turn[0]][0]), Driver("moment", ("base", "xy".index(turn[1]))), across[turn[0]][1]
+        )
+        for turn in turns
     ]
     return term(name, "m/(N m)", *moved, plausible=PLAUSIBLE.foot_m * tilt_per_moment(scene, "base"))
 

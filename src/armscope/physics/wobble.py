@@ -26,6 +26,11 @@ def _place_wobbles(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
             yield _placed(int(j), per_turn, (*tilts, *shifts), f"{per_turn} {RUNS_OUT}")
 
 
+def about_their_origins(arm: Arm, recordings: Recordings) -> list[Placed]:
+    """Wobbles of axes about the origins of their rows: a tilt and nothing else."""
+    return [placed for placed in _place_wobbles(arm, recordings) if not placed.variant.endswith(RUNS_OUT)]
+
+
 def _waves(j: int, per_turn: int, axes: tuple[str, str], unit: str, plausible: float) -> tuple[Term, ...]:
     """What follows a joint's angle about or along two axes across its own."""
     return tuple(

@@ -42,6 +42,7 @@ from armscope.physics.frames import free_frames
 from armscope.physics.model import FittedModel
 from armscope.physics.placing import moving_joints
 from armscope.physics.transmission import mesh
+from armscope.physics.wobble import about_their_origins
 from armscope.real.constants import COMPLIANCE
 from armscope.recordings import Recordings
 from armscope.robot import Arm, chain
@@ -98,7 +99,7 @@ def fit_give(arm: Arm, recordings: Recordings, run: str) -> Give:
     drives = [placed for placed in elastic.JOINT_COMPLIANCE.place(arm, table) if placed.variant == ""]
     bearings = [placed for placed in tilting.BEARING_COMPLIANCE.place(arm, table) if placed.variant == ""]
     waves = [mesh(j, per_turn) for j in moving_joints(table) for per_turn in COMPLIANCE.waves]
-    families = [geometric.background(arm), [*drives, *bearings], [*waves, *geometric.AXIS_WOBBLE.place(arm, table)]]
+    families = [geometric.background(arm), [*drives, *bearings], [*waves, *about_their_origins(arm, table)]]
     parts = parameter_layout(free_frames(table, tool_per_run), families, [])
     small = [p for family in families for p in family]
     precision = _precision(parts)

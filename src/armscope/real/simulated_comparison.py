@@ -20,6 +20,7 @@ from armscope.core.types import Array
 from armscope.physics import elastic, geometric, tilting, transmission
 from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
+from armscope.physics.wobble import about_their_origins
 from armscope.real.compliance_tables import ORIENTATIONS, POINTS, half_width
 from armscope.real.compliances import as_heavy_as_recorded, compare_compliances, fit_give, gravity_as_recorded
 from armscope.real.constants import COMPLIANCE, DRAWN
@@ -57,7 +58,7 @@ def draw_arm(arm: Arm, rows: Recordings, rng: np.random.Generator) -> DrawnArm:
         (geometric.background(arm), DRAWN.geometry),
         (transmission.GEAR_ECCENTRICITY.place(arm, rows), DRAWN.wave_rad),
     ]
-    normal += [(geometric.AXIS_WOBBLE.place(arm, rows), DRAWN.wobble_rad)]
+    normal += [(about_their_origins(arm, rows), DRAWN.wobble_rad)]
     counts = rng.integers(*DRAWN.mesh_waves, arm.n_motors)
     normal += [([transmission.mesh(j + 1, int(count)) for j, count in enumerate(counts)], DRAWN.mesh_rad)]
     dragged = [placed for placed in transmission.JOINT_COUPLING.place(arm, rows) if rng.random() < DRAWN.dragging]

@@ -37,9 +37,10 @@ against z, whose own entry is zero. loose_target: by play to the lower side, alo
 plane across it (nest_x, nest_y, nest_z), where that leans by least_slope at least.
 link_geometry: only rows between parallel axes have a beta, the turn about y that follows the row: no other number of it
 makes them skew (Hayati and Mirmirani 1985).
-link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything that hangs on D-H
-frame j (its own mass included), turns there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F,
-the parts along e left out; bent by segments, so to 0.4 %.
+link_bending: a beam of length L along e, loaded at its end by the force F and moment M of everything beyond it, turns
+there by L/(E I) (M + L/2 e x F) and moves by L^2/(2 E I) M x e + L^3/(3 E I) F, the parts along e left out; bent by
+segments, so to 0.4 %. Its own mass lies evenly on the segments, as far as its centre lets it, and the rest at the
+nearer end.
 Cyclic effects also list `linear`: cosine and sine parts, as in amplitude cos(per_turn q - phase) =
 cosine cos(per_turn q) + sine sin(per_turn q); axis_wobble has them about x and about y.
 """

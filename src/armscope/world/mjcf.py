@@ -2,8 +2,9 @@
 
 Joint j has, from the base outwards, whichever of these a world needs: three slides and a tilt about x and y ("shift j
 x", "tilt j x": in the axes of the frame that carries the joint), a motor-side spring about the axis, the hinge itself.
-A bending link is a row of segments with two hinges each. Springs are MuJoCo joint springs; motor springs are fixed
-tendons over the chain's hinges, so that a parallelogram's motors feel what the principle of virtual work gives them.
+A bending link is a row of segments with two hinges each, over which its mass is spread. Springs are MuJoCo joint
+springs; motor springs are fixed tendons over the chain's hinges, so that a parallelogram's motors feel what the
+principle of virtual work gives them.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ def _chain(geometry: Geometry, layout: Layout, rows: Array) -> str:
         to_joint, to_link = geometry.step_to_joint(j, rows), geometry.step_to_link(j, rows)
         shifts = "".join(_freedom(layout, f"shift {j + 1} {axis}") for axis in "xyz")
         if bends is not None and geometry.modified:
-            beam, opened = _beam(j, to_joint, bends)
+            own = _mass_from_root(geometry, j - 1, Frame(np.zeros(3), 0.0))
+            beam, opened = _beam(j, to_joint, bends, own)
             parts.append(beam)
         parts += [
             f'<body name="joint {j + 1}" {placed(to_joint) if not opened else _last_step(to_joint)}>',
@@ -60,12 +62,12 @@ def _chain(geometry: Geometry, layout: Layout, rows: Array) -> str:
             f'<joint name="angle {j + 1}" axis="0 0 1"/>',
         ]
         if bends is not None and not geometry.modified:
-            beam, opened = _beam(j, to_link, bends)
+            beam, opened = _beam(j, to_link, bends, _mass_from_root(geometry, j, to_link))
             parts.append(beam)
         bent_here = bends is not None and not geometry.modified
         parts.append(f'<body name="link {j + 1}" {_last_step(to_link) if bent_here else placed(to_link)}>')
         parts.append("" if geometry.modified else shifts)
-        if geometry.links:
+        if geometry.links and j + geometry.modified not in layout.flexibility:
             parts.append(_mass_body(geometry.links[j]))
         depth += 2 + opened
     if geometry.tool_load is not None:
@@ -125,8 +127,24 @@ def _motor_springs(geometry: Geometry, layout: Layout) -> str:
     return f"<tendon>{''.join(tendons)}</tendon>"
 
 
-def _beam(link: int, step: Frame, flexibility: float) -> tuple[str, int]:
-    """Segments along the straight line to the link's end, each hinged in its middle; returns MJCF and bodies opened."""
+Point = tuple[float, Array]
+"""A mass, kg, and where it is, m."""
+
+
+def _mass_from_root(geometry: Geometry, body: int, step: Frame) -> Point:
+    """Mass and centre of a link (0-based), in the axes of the frame from which a step to its frame starts."""
+    if not geometry.links or body < 0:
+        return 0.0, np.zeros(3)
+    c, s = np.cos(step.turn_about_x), np.sin(step.turn_about_x)
+    centre = np.array([[1, 0, 0], [0, c, -s], [0, s, c]]) @ np.array(geometry.links[body].com_mm) * 1e-3
+    return geometry.links[body].mass_kg, step.position + centre
+
+
+def _beam(link: int, step: Frame, flexibility: float, own: Point) -> tuple[str, int]:
+    """Segments along the straight line to the link's end, each hinged in its middle; returns MJCF and bodies opened.
+
+    The link's mass lies evenly on them, as far as its centre lets it; the rest is at the end that is nearer to that.
+    """
     length = float(np.linalg.norm(step.position))
     direction = step.position / length
     u = np.cross(direction, np.eye(3)[np.argmin(np.abs(direction))])
@@ -134,13 +152,20 @@ def _beam(link: int, step: Frame, flexibility: float) -> tuple[str, int]:
     v = np.cross(direction, u)
     piece = step.position / SEGMENTS
     stiffness = SEGMENTS / (length * flexibility)
-    parts = []
+    mass, centre = own
+    along = float(centre @ direction)
+    beside = centre - along * direction
+    even = mass * max(0.0, 1 - abs(2 * along / length - 1))
+    lump, at_root = mass - even, 2 * along < length
+    parts = [_point((lump, beside - max(-along, 0.0) * direction)) if at_root else ""]
     for part in range(SEGMENTS):
         at = piece / 2 if part == 0 else piece
         parts.append(f'<body name="segment {link + 1} {part}" pos="{numbers(at)}">')
+        parts.append(_point((even / SEGMENTS, beside)))
         for way, axis in (("u", u), ("v", v)):
             name = f"bend {link + 1} {part} {way}"
             parts.append(f'<joint name="{name}" axis="{numbers(axis)}" stiffness="{float(stiffness)!r}"/>')
+    parts.append("" if at_root else _point((lump, piece / 2 + beside + max(along - length, 0.0) * direction)))
     return "".join(parts), SEGMENTS
 
 
@@ -156,10 +181,15 @@ def _last_step(step: Frame) -> str:
 
 
 def _mass_body(link: LinkMass) -> str:
-    if link.mass_kg == 0:
+    return _point((link.mass_kg, np.array(link.com_mm) * 1e-3))
+
+
+def _point(point: Point) -> str:
+    """A mass at a place of the body around it."""
+    mass, place = point
+    if mass == 0:
         return ""
-    place = numbers(np.array(link.com_mm) * 1e-3)
-    return f'<body><inertial pos="{place}" mass="{link.mass_kg!r}" diaginertia="1e-6 1e-6 1e-6"/></body>'
+    return f'<body><inertial pos="{numbers(place)}" mass="{float(mass)!r}" diaginertia="1e-6 1e-6 1e-6"/></body>'
 
 
 def numbers(values: Iterable[float]) -> str:

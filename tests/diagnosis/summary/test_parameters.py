@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.summary.parameters import beyond_plausible, undetermined
+from armscope.diagnosis.summary.parameters import beyond_plausible, parameters, undetermined
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Part
 from armscope.physics.geometric import LINK_GEOMETRY
+from armscope.physics.wobble import AXIS_WOBBLE
 from tests.diagnosis.planted import planted
 from tests.physics.scenes import arm_named, full_table
 
@@ -47,3 +48,25 @@ def test_what_no_arm_shows_is_questioned() -> None:
     assert "a of link 3 by +24 mm" in said.text
     assert beyond_plausible([Part(placed, 0.1 * values)]) is None
     assert replace(said, text="").kind == "implausible"
+
+
+@pytest.mark.parametrize("against", [1.0, -1.0])
+def test_a_tilt_that_runs_round_is_as_large_as_its_circle_whatever_noise_makes_of_that(against: float) -> None:
+    """Noise makes an ellipse of a circle: told by its longer half axis, amplitudes came out two errors too large."""
+    arm = arm_named("six-axis")
+    placed = next(p for p in AXIS_WOBBLE.place(arm, full_table(arm, 30, 1)) if p.variant == "2")
+    tilt, error = 2e-4, 1e-5
+    rng = np.random.default_rng(0)
+    circle = np.array([tilt, 0.0, 0.0, against * tilt])
+    noisy = [parameters(placed, circle + error * rng.normal(size=4), error**2 * np.eye(4)) for _ in range(200)]
+    sizes = np.array([told[0].value for told in noisy])
+    assert np.mean([len(told) == 3 for told in noisy]) > 0.9  # amplitude, direction, times per turn
+    assert abs(sizes.mean() - tilt) < 3 * sizes.std() / np.sqrt(len(sizes))
+    assert np.mean([told[0].interval[0] < tilt < told[0].interval[1] for told in noisy]) > 0.9
+
+
+def test_a_tilt_in_one_plane_has_a_phase() -> None:
+    arm = arm_named("six-axis")
+    placed = next(p for p in AXIS_WOBBLE.place(arm, full_table(arm, 30, 1)) if p.variant == "1")
+    told = parameters(placed, np.array([2e-4, 0.0, 0.0, 0.0]), 1e-10 * np.eye(4))
+    assert [p.name for p in told] == ["amplitude", "phase", "direction", "per_turn"]

@@ -14,6 +14,7 @@ import numpy as np
 
 from armscope.diagnosis.constants import NAMING
 from armscope.diagnosis.state import DiagnosisState
+from armscope.diagnosis.summary.constants import TELLING
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
@@ -33,13 +34,13 @@ def beside_another_payload(
 
     Returns:
         The effects; as they are where torques tell loads, where the payload has a name, and where rows would not
-        rather have another at even odds.
+        rather have another.
     """
     told, best = dict(found), state.best
     if state.recordings.torque is not None or is_told(search, best):
         return told
     other = with_another_payload(search, best)
-    if other is None or other.log_evidence <= best.log_evidence:
+    if other is None or other.log_evidence - best.log_evidence < TELLING.another_payload_nats:
         return told
     odds = 1 / (1 + np.exp(best.log_evidence - other.log_evidence))
     for chosen, part in zip(best.chosen, state.fit.model.parts, strict=True):

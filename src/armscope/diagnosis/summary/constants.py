@@ -38,10 +38,11 @@ class TellingRules(Constants):
     parallel_rad: float = constant(
         0.02, "between axes that count as parallel", "judgement: far beyond what a drawing is off", unit="rad"
     )
-    unlawful_give: float = constant(
-        0.03,
-        "of the nats that a link's bending is worth, within which soft drives explain the rows as well",
-        "judgement: torques off by a sixth, as masses are, leave as much; with other simulators' arms in view",
+    another_payload_nats: float = constant(
+        1.1,
+        "evidence, without a name's price, from which rows would rather have another payload",
+        "convention: odds of three to one are positive evidence (Kass and Raftery 1995)",
+        unit="nats",
     )
     runs_round: float = constant(
         2.45,

@@ -123,7 +123,7 @@ def _turning_wave(values: Array) -> Array:
         # the opposite direction half a period later is the same wobble
         direction = direction - np.sign(direction) * np.pi
         phase = phase - np.sign(phase) * np.pi
-    return np.array([size[0], phase, direction, *map(_run_out_mm, shifts)])
+    return np.array([size[0], phase, direction, *(1e3 * np.linalg.norm(shift, 2) for shift in shifts)])
 
 
 def _tilt_that_runs_round(values: Array) -> Array:
@@ -131,9 +131,11 @@ def _tilt_that_runs_round(values: Array) -> Array:
 
     The longer half axis of an ellipse is too large for it: noise makes every circle an ellipse.
     """
-    tilts, *shifts = values.reshape(-1, 2, 2)
-    x, y = max(_ROUND @ tilts.reshape(-1), key=np.linalg.norm)
-    return np.array([np.hypot(x, y), np.arctan2(y, x), *map(_run_out_mm, shifts)])
+    tilt, *shifts = values.reshape(-1, 4)
+    senses = _ROUND @ tilt
+    sense = int(np.argmax(np.linalg.norm(senses, axis=1)))
+    x, y = senses[sense]
+    return np.array([np.hypot(x, y), np.arctan2(y, x), *(1e3 * np.linalg.norm(_ROUND[sense] @ s) for s in shifts)])
 
 
 _ROUND = 0.5 * np.array([[[1, 0, 0, 1], [0, -1, 1, 0]], [[1, 0, 0, -1], [0, 1, 1, 0]]])
@@ -147,11 +149,6 @@ def _runs_round(values: Array, covariance: Array) -> bool:
     larger, smaller = np.argsort(-sizes)
     stderr = float(np.sqrt(np.trace(_ROUND[smaller] @ covariance[:4, :4] @ _ROUND[smaller].T) / 2))
     return bool(sizes[smaller] < TELLING.runs_round * stderr < TELLING.runs_round_at_least * sizes[larger])
-
-
-def _run_out_mm(shift: Array) -> float:
-    """The largest of waves along x and y (2, 2), m."""
-    return 1e3 * float(np.linalg.norm(shift, 2))
 
 
 def _spread(reading: Reading, values: Array, covariance: Array, circles: Array) -> Array:

@@ -10,17 +10,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from armscope.diagnosis.constants import NAMING
+from armscope.diagnosis.drives_first import GIVE, little_give_instead
 from armscope.diagnosis.model_space import EffectSpace
 from armscope.diagnosis.state import DiagnosisState
-from armscope.diagnosis.summary.constants import TELLING
-from armscope.inference.edits import Edits
 from armscope.inference.evidence import Hypothesis
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import ELASTIC, FAMILIES
+from armscope.physics.backgrounds import ELASTIC
 from armscope.physics.elastic import JOINT_COMPLIANCE, LINK_BENDING
-from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative
+from armscope.verdict.effects import Alternative
 
-GIVE = FAMILIES.index(ELASTIC)
 LOOK_AT_DRIVES = "See first whether drives give way: load the arm, and measure at each joint how far it turns."
 CURE_OF_DRIVES = "Only if no drive turns by what is told here:"
 
@@ -37,7 +36,7 @@ def told_by_drives(state: DiagnosisState) -> dict[int, Alternative]:
     found = {}
     for effect in state.best.chosen:
         if state.space.placed[effect.candidate].effect is LINK_BENDING:
-            little = little_give_instead(Search.on(state.problem), state.best, effect.candidate)
+            little = little_give_instead(Search.on(state.problem), state.best, effect.candidate, NAMING.unlawful_give)
             drive = None if little is None else _softest(state.space, little)
             if little is not None and drive is not None:
                 gap = float(state.best.log_posterior - little.log_posterior)
@@ -45,26 +44,6 @@ def told_by_drives(state: DiagnosisState) -> dict[int, Alternative]:
                 driver = state.space.placed[drive].driver
                 found[effect.candidate] = Alternative(name, place, ELASTIC, gap, driver, max(gap, 0.0))
     return found
-
-
-def little_give_instead(edits: Edits, hypothesis: Hypothesis, link: int) -> Hypothesis | None:
-    """A hypothesis with a little give everywhere in a link's place, if rows hardly tell it from the link.
-
-    Args:
-        edits: of the problem that the hypothesis is of.
-        hypothesis: that holds the link.
-        link: number of its candidate.
-
-    Returns:
-        The other hypothesis; None where rows tell the two apart, or the first holds a little give already.
-    """
-    if hypothesis.background[GIVE]:
-        return None
-    rest, sizes = edits.without(hypothesis, [link]), range(1, edits.space.families[GIVE].sizes)
-    best = max((edits.with_background(rest, GIVE, size) for size in sizes), key=lambda h: h.log_posterior)
-    worth = hypothesis.log_posterior - rest.log_posterior
-    told_apart = max(INDISTINGUISHABLE_NATS, TELLING.unlawful_give * worth)
-    return best if best.log_posterior > hypothesis.log_posterior - told_apart else None
 
 
 def _softest(space: EffectSpace, hypothesis: Hypothesis) -> int | None:
