@@ -97,3 +97,32 @@ class HandArm:
 def moment_of(loads: list[tuple[np.ndarray, np.ndarray]], about: np.ndarray) -> np.ndarray:
     """The moment about a point of weights at their places."""
     return sum(np.cross(place - about, weight) for place, weight in loads)
+
+
+def spread(centre, weight, start, end, pieces=400):
+    """Where a link's weight lies and from where on the beam it hangs: even, and the rest at the nearer end."""
+    length = np.linalg.norm(end - start)
+    e = (end - start) / length
+    along = (centre - start) @ e
+    beside = centre - start - along * e
+    share = max(1 - abs(2 * along / length - 1), 0.0)
+    for piece in range(pieces):
+        foot = start + (piece + 0.5) / pieces * (end - start)
+        yield foot, (foot + beside, share * weight / pieces)
+    if along > length / 2:
+        yield end, (end + beside + max(along - length, 0.0) * e, (1 - share) * weight)
+
+
+def cantilever(loads, start, end):
+    """Turn and shift of a beam's end per 1/(E I); a point load at x does e x P x^2/2 and P x^2 (3 L - x)/6."""
+    length = np.linalg.norm(end - start)
+    e = (end - start) / length
+    angle, shift = np.zeros(3), np.zeros(3)
+    for foot, weights in loads:
+        x = (foot - start) @ e
+        force = sum(weight for _, weight in weights)
+        moment = moment_of(weights, foot)
+        force, moment = force - (force @ e) * e, moment - (moment @ e) * e
+        angle += x * moment + x**2 / 2 * np.cross(e, force)
+        shift += x * (length - x / 2) * np.cross(moment, e) + x**2 * (3 * length - x) / 6 * force
+    return angle, shift

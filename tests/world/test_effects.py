@@ -11,7 +11,7 @@ from armscope.world.effects_of_joints import SOFT_SIDE
 from armscope.world.effects_of_links import close_loop
 from armscope.world.statics import Hidden
 from armscope.world.strength import equilibrium
-from tests.world.by_hand import ARMS, HandArm, moment_of, turn
+from tests.world.by_hand import ARMS, HandArm, cantilever, spread, turn
 from tests.world.scenes import drawn, scene_of
 
 EXACT_M = 1e-10
@@ -203,35 +203,6 @@ def test_a_bending_link_is_euler_bernoullis_cantilever_under_all_that_it_carries
         f = effect.values["flexibility"]
         by_hand.append(f * (shift + np.cross(angle, point - end)))
     assert np.abs(moved(scene, effect) - by_hand).max() < FIRST_ORDER * np.abs(by_hand).max()
-
-
-def spread(centre, weight, start, end, pieces=400):
-    """Where a link's weight lies and from where on the beam it hangs: even, and the rest at the nearer end."""
-    length = np.linalg.norm(end - start)
-    e = (end - start) / length
-    along = (centre - start) @ e
-    beside = centre - start - along * e
-    share = max(1 - abs(2 * along / length - 1), 0.0)
-    for piece in range(pieces):
-        foot = start + (piece + 0.5) / pieces * (end - start)
-        yield foot, (foot + beside, share * weight / pieces)
-    if along > length / 2:
-        yield end, (end + beside + max(along - length, 0.0) * e, (1 - share) * weight)
-
-
-def cantilever(loads, start, end):
-    """Turn and shift of a beam's end per 1/(E I); a point load at x does e x P x^2/2 and P x^2 (3 L - x)/6."""
-    length = np.linalg.norm(end - start)
-    e = (end - start) / length
-    angle, shift = np.zeros(3), np.zeros(3)
-    for foot, weights in loads:
-        x = (foot - start) @ e
-        force = sum(weight for _, weight in weights)
-        moment = moment_of(weights, foot)
-        force, moment = force - (force @ e) * e, moment - (moment @ e) * e
-        angle += x * moment + x**2 / 2 * np.cross(e, force)
-        shift += x * (length - x / 2) * np.cross(moment, e) + x**2 * (3 * length - x) / 6 * force
-    return angle, shift
 
 
 def test_a_parallelogram_with_wrong_bars_still_closes():

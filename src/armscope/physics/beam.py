@@ -60,6 +60,9 @@ def bent(e: Array, length: float, force: Array, moment: Array, weight: Array, sp
         moment: (N, 3) of everything beyond about the beam's end, N m.
         weight: (N, 3) the beam's own, N.
         spread: how that lies.
+
+    Returns:
+        Shift, m, and turn, rad, times E I.
     """
     end = spread.at_end * weight
     even = spread.even * weight

@@ -125,12 +125,10 @@ def _foot_shift(scene: Scene, name: str, *turns: str) -> Term:
     A turn "xy" is one about x under a moment about y. About x, what stands above the foot moves against y.
     """
     across = {"x": ("ty", -1.0), "y": ("tx", 1.0)}
-    moved = [
-        Product(
-            Direction("base", across[turn[0]][0]), Driver("moment", ("base", "xy".index(turn[1]))), across[turn[0]][1]
-        )
-        for turn in turns
-    ]
+    moved = []
+    for about, under in map(tuple, turns):
+        axis, sign = across[about]
+        moved.append(Product(Direction("base", axis), Driver("moment", ("base", "xy".index(under))), sign))
     return term(name, "m/(N m)", *moved, plausible=PLAUSIBLE.foot_m * tilt_per_moment(scene, "base"))
 
 
