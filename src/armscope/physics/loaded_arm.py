@@ -206,12 +206,12 @@ class LoadedArm(ABC):
         return values
 
     def beam_site(self, link: int) -> str:
-        """Where the end of row ``link``'s beam stands: D-H frame j; for modified rows, before joint j turns."""
-        return f"joint {link}" if self.arm.is_modified_dh else f"link {link}"
+        """Where the end of row ``link``'s beam stands: D-H frame j; of modified rows and URDFs, before joint j turns."""
+        return f"joint {link}" if self.arm.links_come_first else f"link {link}"
 
     def beam(self, link: int) -> Array:
         """(3,) the step along row ``link``, in the axes of `beam_site`, m."""
-        step = self.arm.before[link - 1] if self.arm.is_modified_dh else self.arm.behind[link - 1]
+        step = self.arm.before[link - 1] if self.arm.links_come_first else self.arm.behind[link - 1]
         along: Array = step[:3, :3].T @ step[:3, 3]
         return along
 
@@ -234,18 +234,18 @@ class LoadedArm(ABC):
     def _on_beam(self, link: int) -> tuple[Array, Array, Array, Array]:
         """Loads on row ``link``'s beam: its weight (N, 3), and the centre of that from the end in the axes there (3,).
 
-        Then force and moment (N, 3) of everything beyond, at joint ``link``; loads are in base axes. Of a modified row
-        the beam is the body before joint ``link``, else the one that this joint turns.
+        Then force and moment (N, 3) of everything beyond, at joint ``link``; loads are in base axes. Where links come
+        first, the beam is the body before joint ``link``, else the one that this joint turns.
         """
         force, moment = (wrench[:, link - 1] for wrench in self.wrenches)
-        body = link - 1 if self.arm.is_modified_dh else link
+        body = link - 1 if self.arm.links_come_first else link
         if body == 0:
             return np.zeros_like(force), np.zeros(3), force, moment
         heavier = 1.0 if self.misstated.masses is None else 1 + self.misstated.masses[body - 1]
         weights, moments = weight_of_link(self.arm, self.loaded, body)
         own = np.broadcast_to(heavier * weights[body - 1], force.shape)
-        step = self.arm.before[link - 1] if self.arm.is_modified_dh else self.arm.behind[link - 1]
+        step = self.arm.before[link - 1] if self.arm.links_come_first else self.arm.behind[link - 1]
         centre = step[:3, :3].T @ (self.arm.centres[body - 1] - step[:3, 3])
-        if self.arm.is_modified_dh:
+        if self.arm.links_come_first:
             return own, centre, force, moment
         return own, centre, force - own, moment - heavier * moments[:, link - 1]

@@ -97,7 +97,7 @@ def _place_bows(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     if not varies(recordings.temperature, FORM.least_span_k):
         return
     for place, _ in growing_links(arm, ONE):
-        behind = place if arm.description.dh is not None and not arm.is_modified_dh else place.replace("link", "joint")
+        behind = place.replace("link", "joint") if arm.links_come_first else place
         terms = tuple(
             term(f"tilt_{axis[1]}", "rad/K", (Direction(behind, axis), WARMTH), plausible=PLAUSIBLE.warm_rad_per_k)
             for axis in ("rx", "ry")

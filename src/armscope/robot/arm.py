@@ -100,6 +100,11 @@ class Arm(InWords):
         """Whether the rows follow Craig's modified convention."""
         return self.description.dh is not None and self.description.dh.convention == "modified"
 
+    @property
+    def links_come_first(self) -> bool:
+        """Whether link j stands before joint j, as in modified rows and in a URDF; else behind it."""
+        return self.is_modified_dh or self.description.dh is None
+
     @functools.cached_property
     def reach(self) -> float:
         """An upper bound of the distance of the tool from the base's origin, m."""
