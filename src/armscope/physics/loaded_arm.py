@@ -206,7 +206,7 @@ class LoadedArm(ABC):
         return values
 
     def beam_site(self, link: int) -> str:
-        """Where the end of row ``link``'s beam stands: D-H frame j; of modified rows and URDFs, before joint j turns."""
+        """Where the end of row ``link``'s beam stands: D-H frame j; where links come first, before joint j turns."""
         return f"joint {link}" if self.arm.links_come_first else f"link {link}"
 
     def beam(self, link: int) -> Array:
