@@ -119,3 +119,11 @@ def test_waves_that_lead_by_what_they_were_spared_may_be_a_free_curve(lead: floa
     assert [rival.candidate for rival in found] == [curve] * told
     apart = [discriminability(best, rival.hypothesis, wave, rival.candidate) for rival in found]  # type: ignore[arg-type]
     assert too_close(wave, found, apart) == [curve] * told  # type: ignore[arg-type]
+
+
+def test_a_trend_with_a_small_second_wave_stands_beside_a_wave_that_fits_no_better() -> None:
+    """Over less than a turn one wave of free phase is both: rows that know no better told it as if nothing else was."""
+    verdict = told_of(3, 1.1, (0.0, 1e-4), trend=7e-4)
+    wave = next(e for e in verdict.effects if e.effect == "gear_eccentricity")
+    assert ("gear_ratio", "joint 3") in {(rival.effect, rival.location) for rival in wave.alternatives}
+    assert wave.named_as != "effect"

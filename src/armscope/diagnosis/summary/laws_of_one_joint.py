@@ -37,10 +37,11 @@ def stand_together(search: Search, one: int, other: int) -> bool:
 
 
 def laws_beside_zero(search: Search, best: Hypothesis, number: int) -> list[Rival]:
-    """What could replace a law of a joint's own angle beside that joint's zero, which every arm has.
+    """What could replace a law of a joint's own angle beside that joint's zero or a small wave, which every arm has.
 
-    A wave over less than a turn is a trend about another zero. Two names pay more than one, and neither does much
-    alone; but a price is no measurement: where the two fit as well, rows do not tell.
+    A wave over less than a turn is a trend about another zero, but for its bend: that is a second wave, far smaller
+    than the first. Two names pay more than one, and neither does much alone; but a price is no measurement: where the
+    two fit as well, rows do not tell.
 
     Args:
         search: on the problem.
@@ -48,21 +49,30 @@ def laws_beside_zero(search: Search, best: Hypothesis, number: int) -> list[Riva
         number: of the law.
 
     Returns:
-        The laws that fit as well, each beside the zero.
+        The laws that fit as well, each beside the zero; and the trend beside the other wave.
     """
     effect = search.candidate(number)
     curves = [c for c in search.space.candidates if c.is_curve and c.competes and number in c.special_cases - c.common]
-    found = []
+    without, found = search.without(best, [number]), []
+    every, smaller = range(len(search.problem.sizes)), range(_size(best, number))
     for curve in curves if len(effect.columns) > 1 else ():
         laws = curve.special_cases - best.candidates - curve.common
-        for zero in curve.common - best.candidates:
-            other = _beside_zero(search, search.without(best, [number]), zero, laws)
+        beside = [(zero, every, laws) for zero in curve.common - best.candidates]
+        trends = frozenset(law for law in laws if len(search.candidate(law).columns) == 1)
+        beside += [(wave, smaller, trends) for wave in laws if search.candidate(wave).key == effect.key]
+        for each, sizes, others in beside:
+            other = _beside(search, without, [SelectedEffect(each, size) for size in sizes], others)
             misfit = np.inf if other is None else (other.rss - best.rss) / (2 * best.noise**2)
             if other is not None and misfit < INDISTINGUISHABLE_NATS:
                 gap = best.log_posterior - other.log_posterior
                 if gap <= NAMING.listed_nats_of_special_cases:
                     found.append(Rival(gap, search.candidate(other.chosen[-1].candidate), other, near=True))
     return found
+
+
+def _size(best: Hypothesis, number: int) -> int:
+    """The size (index into the problem's sizes) with which an effect was chosen."""
+    return next(c.size for c in best.chosen if c.candidate == number)
 
 
 def curve_of_waves(search: Search, best: Hypothesis, number: int) -> list[Rival]:
@@ -92,14 +102,14 @@ def curve_of_waves(search: Search, best: Hypothesis, number: int) -> list[Rival]
     return found
 
 
-def _beside_zero(search: Search, base: Hypothesis, zero: int, laws: Collection[int]) -> Hypothesis | None:
-    """The likeliest law beside a zero of any size: one that does nothing alone may be large beside a trend."""
+def _beside(
+    search: Search, base: Hypothesis, sized: Sequence[SelectedEffect], laws: Collection[int]
+) -> Hypothesis | None:
+    """The likeliest law beside an effect of one of some sizes: what does nothing alone may be large beside a trend."""
     others = set(range(len(search.space.candidates))) - set(laws)
-    sizes = range(len(search.problem.sizes))
-    beside = (search.evaluated((*base.chosen, SelectedEffect(zero, size)), base) for size in sizes)
-    return max(
-        (each for zeroed in beside for each in search.additions(zeroed, 1, others)), key=by_posterior, default=None
-    )
+    beside = (search.evaluated((*base.chosen, each), base) for each in sized)
+    found = (law for each in beside for law in search.additions(each, 1, others))
+    return max(found, key=by_posterior, default=None)
 
 
 def doubts_of_laws(search: Search, best: Hypothesis, rivals: Mapping[int, Sequence[Rival]]) -> dict[int, Array]:
