@@ -73,3 +73,14 @@ def test_a_name_that_no_table_drawn_anew_has_is_confirmed_first_though_nothing_e
     both = doubt_of(replace(alone, alternatives=(LINK,)))
     assert both
     assert both.instruction.startswith(f"{NEVER_AGAIN} First find out which it is")
+
+
+def test_where_nothing_else_is_known_no_choice_is_offered() -> None:
+    """It was "first find out which it is: elastic, around joint 2"."""
+    alone = replace(VAGUE, alternatives=(), title="elastic, around joint 2", family="elastic")
+    doubt = doubt_of(alone)
+    assert doubt
+    assert "which" not in doubt.instruction
+    assert doubt.instruction.startswith(
+        "Confirm it first: that it is elastic, around joint 2 is sure, its name is not."
+    )

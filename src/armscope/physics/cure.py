@@ -13,7 +13,7 @@ from armscope.physics.effect import Cure, Part
 from armscope.physics.loaded_arm import LoadedArm
 
 INSTRUCTION_WORDS = (
-    "location", "zero", "ratio", "size", "soft_turn", "coefficient", "jump", "row", "correction",
+    "location", "zero", "ratio", "size", "soft_turn", "coefficient", "jump", "row", "correction", "bars",
 )  # fmt: skip
 """What the instruction of a work order may name (`armscope.verdict.tasks`)."""
 

@@ -15,6 +15,7 @@ from armscope.physics.cure import command
 from armscope.physics.effect import AXES, ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term, motor, term
 from armscope.physics.form_constants import FORM
 from armscope.physics.joint_directions import directions_of_a_joint
+from armscope.physics.linkage_words import BARS, OF_WHAT, bars_differ
 from armscope.physics.loaded_arm import LINKAGE_JOINT, LoadedArm
 from armscope.physics.placing import moving_joints, nowhere
 from armscope.physics.scene import Scene
@@ -239,14 +240,15 @@ PARALLELOGRAM_GEOMETRY = Effect(
     "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
     Cure(
-        "Adjust the rod by minus its error,",
+        "Adjust each bar that is off by minus its error, all of them before anything is measured,",
         otherwise="or put the true lengths into the controller's model (rod = stated rod + rod, rocker = stated rocker "
         "+ rocker; errors without a unit are shares of the rocker's length), whose inverse kinematics then reaches the "
         "wanted point.",
         change="linkage",
-        instruction="Adjust the rod of the parallelogram by minus its error.",
+        instruction="Set the parallelogram's bars right: {bars}.",
     ),
-    clauses=("the parallelogram's bars differ: rod by {rod:+} and rocker by {rocker:+}",),
+    clauses=(bars_differ,),
+    labels={bar: f"{bar} is off by (a share: {OF_WHAT})" for bar in BARS},
     atlas="constant",
     exact=_closed_loop,
     departs=True,

@@ -41,6 +41,26 @@ class RepairRules(Constants):
 
 
 @dataclass(frozen=True)
+class CalibratedRules(Constants):
+    """What counts where the geometry is calibrated."""
+
+    stands_out: float = constant(
+        0.1,
+        "share of the squared error that a calibration leaves from which a cause is major, however little of the whole "
+        "it is",
+        "judgement: its cure lowers by a twentieth what a calibrated arm misses by, more than a task must",
+    )
+    most_taken_up: float = constant(
+        0.5,
+        "of all coordinates, that frames and geometry may take up where shares of the rest are told",
+        "judgement: beyond it, a fit to so few rows leaves too little to tell shares of",
+    )
+    same_column: float = constant(
+        1e-6, "of the largest, below which a direction in which geometry moves the tool is none", "derived: rounding"
+    )
+
+
+@dataclass(frozen=True)
 class OrderRules(Constants):
     """What is a task of the work order."""
 
@@ -79,7 +99,7 @@ class OrderRules(Constants):
 class WordingRules(Constants):
     """What is told in words, and how surely."""
 
-    causes: int = constant(3, "in a headline; more are counted, not told", "judgement: as many are kept in mind")
+    causes: int = constant(4, "in a headline; more are counted, not told", "judgement: as many are kept in mind")
     places: int = constant(4, "in a sentence; more are counted, not told", "judgement: as many are read")
     rivals: int = constant(2, "of a cause that a task tells: the nearest", "judgement: as many are looked for")
     told_first: float = constant(
@@ -92,6 +112,14 @@ class WordingRules(Constants):
         0.15,
         "the same for a cause of which no member stands out: below it, it is one of the rest",
         "judgement: nothing can be done about it by itself",
+    )
+    hidden_by_geometry: float = constant(
+        1.5,
+        "times its share of the whole from which a cause's share of what calibration leaves is told beside it",
+        "judgement: less is the same in words",
+    )
+    told_at_all: float = constant(
+        1e-3, "share from which a cause that is not worth a clause is counted", "judgement: less is nothing to look for"
     )
     told_though_unsure: float = constant(
         0.01, "share from which small errors are told that the evidence does not ask for", "judgement: less is noise"
@@ -140,4 +168,4 @@ class WordingRules(Constants):
     )
 
 
-REPAIRS, ORDER, WORDS = RepairRules(), OrderRules(), WordingRules()
+REPAIRS, CALIBRATED, ORDER, WORDS = RepairRules(), CalibratedRules(), OrderRules(), WordingRules()

@@ -61,6 +61,7 @@ class EffectFile(FilePart):
     description: str
     carries_over: str
     undetermined: tuple[str, ...] = ()
+    share_after_calibration: Number = np.nan
 
 
 class BeforeAfter(FilePart):

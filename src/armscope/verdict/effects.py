@@ -5,6 +5,7 @@ Units stand in the names (mm, rad, nats).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -116,6 +117,8 @@ class FoundEffect:
         description: the shape of its curve in words; empty where it has none.
         curve: its shape over the driver, where it has one. Lives in memory (and in curves.csv) only.
         undetermined: parameters that these rows leave open: held near zero, and not told.
+        share_after_calibration: the same share of what is left once the geometry is calibrated; NaN of what that mends,
+            and where it is not called for.
         physics, confirm, cure: one sentence each, the definition's; not in verdict.json.
     """
 
@@ -139,6 +142,7 @@ class FoundEffect:
     carries_over: str = ""
     description: str = ""
     undetermined: tuple[str, ...] = ()
+    share_after_calibration: Number = math.nan
 
     def __post_init__(self) -> None:
         if self.curve is not None and not self.description:
@@ -186,6 +190,8 @@ class Cause:
         held_out_gain_mm: by how much the RMS of held-out rows would grow without it; below zero it would shrink.
         text: what is wrong, in a clause.
         cure: what to do, in a sentence.
+        share_after_calibration: the same share of what is left once the geometry is calibrated; NaN of the geometry,
+            of what no member is sure of, and where that is not called for.
     """
 
     family: str
@@ -198,3 +204,4 @@ class Cause:
     held_out_gain_mm: Number
     text: str
     cure: str
+    share_after_calibration: Number = math.nan

@@ -11,6 +11,8 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.core.words import enumerated, uncapitalised
+from armscope.physics.backgrounds import GEOMETRIC
+from armscope.verdict.calibrated import ENTERED
 from armscope.verdict.constants import ORDER
 from armscope.verdict.doubts import OPEN
 from armscope.verdict.tasks import Task
@@ -71,19 +73,36 @@ def in_one_step(jobs: Sequence[Job]) -> Task:
     )
 
 
-def calibrated_last(jobs: Sequence[Job]) -> list[Job]:
+def found_by_calibration(task: Task) -> bool:
+    """Whether zeros and D-H rows fitted afresh hold all that a task is of."""
+    return bool(task.members) and all(member.partition(" at ")[0] in ENTERED for member in task.members)
+
+
+def calibrated_last(jobs: Sequence[Job], before: Array) -> list[Job]:
     """A calibration with what is named after it as one step, in which the calibration comes last.
 
     By new measurements it takes up part of whatever is still there. What was then corrected by its first size was
-    corrected twice: a wave of a gear left more than before.
+    corrected twice: a wave of a gear left more than before. What is off in the geometry and no row holds (a bearing
+    that wobbles, a bar) is mended at the arm, as a step of its own before it, if that alone pays.
+
+    Args:
+        jobs: tasks in their turn.
+        before: (n, 3) mm, the error with none of them done.
+
+    Returns:
+        The tasks, some in one.
     """
     at = next((n for n, (task, _) in enumerate(jobs) if task.change == CALIBRATION), len(jobs))
     after = [job for job in jobs[at + 1 :] if _can_be_done_before(job[0])]
     if not after:
         return list(jobs)
     others = [job for job in jobs[at + 1 :] if not _can_be_done_before(job[0])]
-    one = _and_calibrated([task for task, _ in after], jobs[at][0]), moved_by([*after, jobs[at]])
-    return [*jobs[:at], one, *others]
+    repaired = [job for job in after if job[0].family == GEOMETRIC and rms(before - job[1]) < rms(before)]
+    after = [job for job in after if not any(job is each for each in repaired)]
+    one = jobs[at]
+    if after:
+        one = (_and_calibrated([task for task, _ in after], jobs[at][0]), moved_by([*after, jobs[at]]))
+    return [*jobs[:at], *repaired, one, *others]
 
 
 def _can_be_done_before(task: Task) -> bool:

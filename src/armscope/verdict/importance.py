@@ -7,19 +7,28 @@ with the error before and with what is left, over the squared error. The shares 
 below zero hides part of what others do: its cure pays only once theirs are done.
 
 What is told as major is worth its place by that measure or, where it hides what others do, by its own squared size: it
-is off by as much, though its cure waits for theirs. What base and tool take up whenever they are placed anew (an
-arm that was set up anew between runs) has no share to lose; a base that jumped while it was one has its own.
+is off by as much, though its cure waits for theirs. So is what makes up much of what a calibration of the geometry
+leaves (`calibrated`), however little that is beside the geometry. What base and tool take up whenever they are placed
+anew (an arm that was set up anew between runs) has no share to lose; a base that jumped while it was one has its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.averages import rms
 from armscope.core.types import Array
+from armscope.physics.backgrounds import GEOMETRIC
+from armscope.verdict.calibrated import (
+    mended_by_calibration,
+    once_calibrated,
+    share_beside_its_like,
+    stands_out,
+)
 from armscope.verdict.constants import REPAIRS, WORDS
 from armscope.verdict.contributions import Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis
@@ -62,13 +71,17 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
     def share(moved: Array) -> float:
         return float(np.sum(moved * (before + left))) / squared
 
+    calibrated = once_calibrated(ground, left, zip(draft.effects, moved, strict=True), small)
     families = tuple(
         replace(each, share=share(small[each.family]) if each.family in small else 0.0)
         for each in draft.background_families
     )
 
     def placed(effect: FoundEffect, its: Array) -> FoundEffect:
-        told = replace(effect, share=share(its))
+        of_rest = calibrated.share(its) if calibrated and not mended_by_calibration(effect) else math.nan
+        told = replace(effect, share=share(its), share_after_calibration=of_rest)
+        if stands_out(told) and not (told.rarely_chosen or told.size_open):
+            return replace(told, minor=False)
         if effect.minor or rms(its) < REPAIRS.switch_seen * rms(before):
             return told
         worth = max(told.share, float(np.sum(its**2)) / squared)
@@ -77,8 +90,11 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
     named = [placed(effect, its) for effect, its in zip(draft.effects, moved, strict=True) if parts[id(effect)]]
     modelled = sum(effect.share for effect in named) + sum(family.share for family in families)
     left_over = max(1 - modelled, 0.0)
-    # what scatters is in no model: it has no more than nothing else explains
+    # what scatters is in no model: it has no more than nothing else explains, less the noise
+    left_over = max(left_over - draft.noise_mm**2 / rms(before) ** 2, 0.0)
     scattered = [replace(e, share=min(e.share, left_over)) for e in draft.effects if not parts[id(e)]]
+    if calibrated:
+        scattered = [replace(e, share_after_calibration=calibrated.of_scatter(e.share)) for e in scattered]
     present = sum(each.share for each in families if each.present)
     told = replace(
         draft,
@@ -86,27 +102,39 @@ def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
         background=replace(draft.background, share=present),
         background_families=families,
     )
-    told = replace(told, causes=_causes(told))
+    rest = {f: calibrated.share(its) for f, its in small.items() if f != GEOMETRIC} if calibrated else {}
+    told = replace(told, causes=_causes(told, rest))
     return replace(told, headline=headline(told))
 
 
-def _causes(verdict: Diagnosis) -> tuple[Cause, ...]:
-    """The causes with their members in order, the largest share first."""
+def _causes(verdict: Diagnosis, of_rest: Mapping[str, float]) -> tuple[Cause, ...]:
+    """The causes with their members in order, the largest share first; of_rest: of small errors, after calibration."""
     small = {each.family: each for each in verdict.background_families}
     growth = growth_in_words(verdict.model.background)
-    causes = [_retold(cause, verdict.effects, small.get(cause.family), growth) for cause in verdict.causes]
+    causes = [
+        _retold(cause, verdict.effects, small.get(cause.family), of_rest.get(cause.family, math.nan), growth)
+        for cause in verdict.causes
+    ]
     return tuple(sorted(causes, key=lambda cause: -cause.share))
 
 
-def _retold(cause: Cause, effects: Sequence[FoundEffect], small: Background | None, growth: str) -> Cause:
+def _retold(
+    cause: Cause, effects: Sequence[FoundEffect], small: Background | None, of_rest: float, growth: str
+) -> Cause:
     members = [effect for effect in effects if effect.as_member in cause.members]
+    members.sort(key=lambda effect: -share_beside_its_like(effect))
     everywhere = small if cause.everywhere else None
+    sure = any(not (effect.size_open or effect.rarely_chosen) for effect in members) or everywhere is not None
+    after = sum(e.share_after_calibration for e in members) + (of_rest if everywhere else 0.0) if sure else math.nan
+    as_left = [replace(effect, share=share_beside_its_like(effect)) for effect in members]
+    beside = replace(everywhere, share=of_rest) if everywhere and math.isfinite(after) else everywhere
     return replace(
         cause,
         members=tuple(effect.as_member for effect in members),
         minor=all(effect.minor for effect in members) and not cause.everywhere,
         share=sum(effect.share for effect in members) + (everywhere.share if everywhere else 0.0),
-        text=cause_in_words(cause.family, members, everywhere),
+        share_after_calibration=after,
+        text=cause_in_words(cause.family, as_left, beside),
         cure=cure_of_family(cause.family, members, cause.everywhere, everywhere.worst if everywhere else "", growth),
     )
 

@@ -17,6 +17,7 @@ from armscope.verdict.family_cures import warms
 from armscope.verdict.promise import promised
 from armscope.verdict.remainder import above_what, asked_of_noise, still_open
 from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
+from armscope.verdict.told_causes import MOST_OF_ALL, WORST, is_spread, told_and_rest, with_share
 from armscope.verdict.unsettled import vague
 from armscope.verdict.wording import (
     BESIDE,
@@ -38,8 +39,6 @@ from armscope.verdict.wording import (
 )
 
 _OTHERS = "all others a little"
-_WORST = ", most at "
-_MOST_OF_ALL = ", most of all: "
 
 
 def headline(verdict: Diagnosis) -> str:
@@ -62,33 +61,11 @@ def headline(verdict: Diagnosis) -> str:
         )
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
-    told, rest = _told_and_rest(verdict.causes or _one_by_one(verdict))
-    clauses = [_with_share(c, first=c is told[0]) for c in told]
+    told, rest = told_and_rest(verdict.causes or _one_by_one(verdict))
+    clauses = [with_share(c, first=c is told[0]) for c in told]
     first = max(1, sum(c.share > WORDS.told_first for c in told))
     rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
-
-
-def _with_share(cause: Cause, first: bool) -> str:
-    """A cause and its share; the share of a whole family stands before its largest member, which has only a part."""
-    family, worst, member = cause.text.partition(_MOST_OF_ALL)
-    share = f"{percent(cause.share)}{' of the squared error' * first}"
-    if cause.share > WORDS.more_than_all:
-        share = "more than the whole squared error, as others cancel a part of it"
-    return f"{family} – {share}{worst}{member}"
-
-
-def _told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
-    """The causes that a headline tells, and those that it counts."""
-    named = [c for c in causes if c.members and not c.minor and c.share > WORDS.told_though_unsure and not _spread(c)]
-    first = [c for c in causes if c.share > (WORDS.spread_told_first if _spread(c) else WORDS.told_first) or c in named]
-    told = first[: WORDS.causes] or list(causes[:1])
-    return told, [cause for cause in causes if cause not in told]
-
-
-def _spread(cause: Cause) -> bool:
-    """Whether a cause is small errors in the whole arm of which none stands out."""
-    return cause.everywhere and cause.text.partition(_WORST)[0] == SPREAD.get(cause.family)
 
 
 def cause_in_words(family: str, members: Sequence[FoundEffect], small: Background | None = None) -> str:
@@ -106,7 +83,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     main = [effect for effect in members if not effect.minor]
     told = [e for e in main if not e.never_chosen][:1] or ([] if small else list((main or members)[:1]))
     none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
-    none_stands_out += _WORST + small.worst if small and small.worst else ""
+    none_stands_out += WORST + small.worst if small and small.worst else ""
     if small and warms(family, small.worst):
         none_stands_out = GROWS.format(small.worst)
     if not told or (small and _is_next_to_nothing(told[0], small)):
@@ -114,7 +91,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     more = _goes_on(told[0], members)
     beside = also_out(family, told[0], [effect for effect in members if effect not in more])
     if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
-        return _with_others(f"{IN_ALL[family]}{_MOST_OF_ALL}{phrase(told[0])}", beside)
+        return _with_others(f"{IN_ALL[family]}{MOST_OF_ALL}{phrase(told[0])}", beside)
     beside += [BESIDE.get(family, _OTHERS)] if small else []
     return _with_others(" and ".join([phrase(told[0]), *map(_how, more)]), beside)
 
@@ -212,7 +189,7 @@ def _one_by_one(verdict: Diagnosis) -> list[Cause]:
 
 def _smaller(rest: Sequence[Cause]) -> Iterator[str]:
     """What else the model took in: causes that are counted, and small errors of the whole arm; each with its share."""
-    spread = [cause for cause in rest if _spread(cause)]
+    spread = [cause for cause in rest if is_spread(cause)]
     counted = [cause for cause in rest if cause not in spread]
     if counted:
         share, several = sum(cause.share for cause in counted), len(counted) > 1

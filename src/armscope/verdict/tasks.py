@@ -17,6 +17,7 @@ from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
+from armscope.verdict.bars import bars_set_right
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
@@ -28,6 +29,9 @@ from armscope.verdict.motion_in_words import correction_in_words, motion_in_word
 from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
 from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
+
+FIND_OUT = "to be found out"
+"""What is changed about what scatters: nothing before it is known what it follows."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,11 @@ class Task:
     beside_scatter: bool = False
 
     @property
+    def finds_out(self) -> bool:
+        """Whether it finds out what a cause is, and lowers no error by itself."""
+        return self.change == FIND_OUT
+
+    @property
     def unsettled(self) -> bool:
         """Whether it is to be found out first what the cause is."""
         return self.change == OPEN
@@ -95,6 +104,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     in_urdf = effect.effect == LINK_GEOMETRY.name and scene.arm.description.dh is None
     if in_urdf:
         words["location"], words["row"] = _origin(scene.arm, effect)
+    words["bars"] = bars_set_right(effect.parameters)
     words["correction"] = correction_in_words(scene, cause.parts)
     told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
     if "offset" in told:
@@ -262,4 +272,4 @@ def _row(effect: FoundEffect) -> Iterator[str]:
         if implausible(p, effect):
             continue
         size = length(p.value, p.stderr) if p.unit == "mm" else angle(p.value, p.stderr)
-        yield f"{p.name} = stated {p.name} {size}"
+        yield f"{p.name} = stated {p.name} {size if size[0] in '+−' else f'+{size}'}"

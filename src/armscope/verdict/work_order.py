@@ -14,11 +14,20 @@ from armscope.verdict.constants import ORDER, REPAIRS
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.entered_together import CALIBRATION, Job, calibrated_last, in_one_step, moved_by, pays_together
+from armscope.verdict.entered_together import (
+    CALIBRATION,
+    Job,
+    calibrated_last,
+    found_by_calibration,
+    in_one_step,
+    moved_by,
+    pays_together,
+)
 from armscope.verdict.family_cures import cure_of_family, warms
 from armscope.verdict.growth import growth_in_words
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
+from armscope.verdict.scatter_steps import beside_scatter, finding_out
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
 
@@ -38,10 +47,6 @@ NOT_ON_TOP = (
 )
 """The model file holds the arm as it was recorded: a zero set anew and commanded away is off by as much again."""
 NO_GAIN = "Curing it does not lower the error at this point: confirm it before you change anything."
-SETTLE_SCATTER = (
-    "Settle first why {} scatters (below): play whose side was not recorded goes with the angle, too. Until then "
-    "change nothing here."
-)
 AFTER_REPAIRS = "Diagnose again after the repairs above: this is for what they leave."
 ON_OTHERS = "Predict other poses (armscope predict) and measure a few of them."
 """In its place where there is nothing to repair first."""
@@ -126,9 +131,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
     each_pays = [job for job in repairs if alone[id(job[0])] < before]
     not_yet = [job for job in repairs if not _among(job, each_pays)]
     first, left, _ = _by_gain([job for job in each_pays if not _awaits(job, not_yet)], worth.before)
-    families = [each.effects[0].family for each in (*worth.causes, *single)] + [cause.family for cause, _ in told]
-    of_geometry = zip((*major, *minor, *together), families, strict=True)
-    geometric = [job for job, family in of_geometry if family == GEOMETRIC and not _among(job, first)]
+    entered = [job for job in (*major, *minor, *together) if found_by_calibration(job[0])]
+    geometric = [job for job in entered if not _among(job, first)]
     small = [_calibrating(job, geometric) if job[0].change == CALIBRATION else job for job in small]
     alone |= {id(task): rms(worth.before - moved) for task, moved in small}
     then, left, _ = _by_gain([job for job in small if alone[id(job[0])] < before], left)
@@ -148,17 +152,20 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         smaller = [*smaller, *more]
     moved = {id(task): moved for task, moved in (*repairs, *minor, *small, *joint)}
     jobs_in_turn = [(beside_scatter(task, verdict), moved[id(task)]) for task, _ in (*first, *then, *last, *smaller)]
-    done = _in_turn(calibrated_last(jobs_in_turn), worth.before)
+    done = _in_turn(calibrated_last(jobs_in_turn, worth.before), worth.before)
     done = [_after_what_it_needs(task, done[:n]) for n, task in enumerate(done)]
     done[:1] = [replace(task, confirm=task.confirm.replace(AFTER_REPAIRS, ON_OTHERS)) for task in done[:1]]
     moving = [task.what for task, moved in unpaid if rms(moved) > 0]
+    unmoved = [task for task, moved in unpaid if rms(moved) == 0]
+    to_find = finding_out(unmoved, verdict, done[-1].then_mm if done else before)
+    besides = [task for task in unmoved if not any(task.members == each.members for each in to_find)]
     if rms(worth.left) < (1 - ORDER.worth_together) * rms(left):
         names = [uncapitalised(what) for what in moving]
-        done.append(_together(names, rms(worth.left), instead=bool(done)))
+        to_find.append(_together(names, rms(worth.left), instead=bool(done)))
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
-    waiting_on = (f"{task.what}. {task.cure}" for task, moved in unpaid if rms(moved) == 0)
-    return WorkOrder(tuple(done), (*lost, *waiting_on), instrument_is_open(verdict))
+    waiting_on = (f"{task.what}. {task.cure}" for task in besides)
+    return WorkOrder((*done, *to_find), (*lost, *waiting_on), instrument_is_open(verdict))
 
 
 def _told_together(
@@ -251,19 +258,6 @@ def _after_what_it_needs(task: Task, before: Sequence[Task]) -> Task:
     steps = [str(n) for n, each in enumerate(before, start=1) if each.family == task.requires and not each.requires]
     which = f"step{'s' * (len(steps) > 1)} {enumerated(steps)}" if steps else COMPENSATE
     return replace(task, needs=DOES_NOTHING.format(which), only_after=False)
-
-
-def beside_scatter(task: Task, verdict: Diagnosis) -> Task:
-    """A drive's task where its joint scatters as play does: the side of approach goes with the angle at most poses.
-
-    What follows the angle there may be no more than that.
-    """
-    loose = {each.location for each in verdict.effects if any(p.name == "scatter" for p in each.parameters)}
-    places = [member.partition(" at ")[2] for member in task.members]
-    if task.family != TRANSMISSION or not loose.intersection(places):
-        return task
-    unless = f"{SETTLE_SCATTER.format(enumerated(places))} {task.unless}".rstrip()
-    return replace(task, unless=unless, beside_scatter=True)
 
 
 def _among(job: Job, others: Sequence[tuple[Task, object]]) -> bool:

@@ -49,3 +49,14 @@ def test_what_has_different_cures_is_several_causes() -> None:
 
 def test_nothing_missing_has_no_cause() -> None:
     assert verdict_on({}).causes == ()
+
+
+def test_what_no_calibration_mends_is_a_cause_of_its_own() -> None:
+    """An axis that wobbles counted as geometry, whose calibration was told as its cure."""
+    wanted = {("axis_wobble", "joint 3"): [4e-4, 0.0, 0.0, 1e-4], ("link_geometry", "link 2"): [3e-4, 4e-4, 2e-4]}
+    verdict = verdict_on(wanted)
+    causes = {cause.members: cause for cause in verdict.causes}
+    wobble = causes["axis_wobble at joint 3",]
+    assert wobble.family == "geometric"
+    assert "calibrate" not in wobble.cure
+    assert not wobble.everywhere

@@ -14,7 +14,8 @@ from armscope.core.location import Location
 from armscope.diagnosis.held_out_worth import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import FAMILIES, MENDED
+from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, MENDED
+from armscope.verdict.calibrated import mended_by_calibration
 from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
 from armscope.verdict.schema import Background
@@ -42,7 +43,7 @@ def causes(
         background: what is small everywhere, by family.
 
     Returns:
-        One cause per family that has effects or a background.
+        One cause per family that has effects or a background, and per kind of what its calibration does not mend.
     """
     members: dict[str, list[FoundEffect]] = {}
     candidates: dict[str, list[int]] = {}
@@ -71,7 +72,12 @@ def causes(
 
 
 def _group(effect: FoundEffect) -> str:
-    """What is mended together: a family; but a payload is weighed, whatever gives way under it."""
+    """What is mended together: a family; but a payload is weighed, whatever gives way under it.
+
+    So is what geometry has beside zeros and rows: no calibration mends an axis that wobbles, or a linkage's bars.
+    """
+    if effect.family == GEOMETRIC and not mended_by_calibration(effect):
+        return effect.effect
     return effect.location if effect.location == PAYLOAD else effect.family
 
 

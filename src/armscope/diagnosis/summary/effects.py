@@ -27,7 +27,7 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import NormalEquations, projected_rms
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, TRANSMISSION
+from armscope.physics.backgrounds import FAMILIES, TRANSMISSION
 from armscope.physics.effect import Part, Placed
 from armscope.physics.elastic import JOINT_COMPLIANCE, UNKNOWN_MASSES
 from armscope.physics.scene import Scene
@@ -253,10 +253,8 @@ def as_far_as_it_carries(found: FoundEffect, candidate: Candidate, over: SameSiz
 def with_weight(found: FoundEffect, background: Sequence[Background]) -> FoundEffect:
     """Minor or not: in an arm with small errors everywhere, a small effect is one of them.
 
-    What is not geometry is measured by what the geometry of every arm leaves: it is what a calibration would not mend.
-    An effect is asked twice: by the share that a fit gives it, and by the share that its cure has.
+    An effect is asked twice: by the share that a fit gives it, and by the share that its cure has. What is not geometry
+    may be major all the same by what a calibration leaves (`armscope.verdict.importance`).
     """
     ordinary = any(family.present for family in background)
-    geometry = sum(family.share for family in background if family.family == GEOMETRIC and family.present)
-    of = found.share if found.family == GEOMETRIC else found.share / max(1 - geometry, 1e-6)
-    return replace(found, minor=of < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))
+    return replace(found, minor=found.share < (NAMING.minor_share if ordinary else NAMING.minor_share_of_perfect_arm))

@@ -82,7 +82,7 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "order": subject.order,
         "before": rms(subject.worth.before),
         "another": another,
-        "left": min((task.then_mm for task in tasks if not task.instead), default=None),
+        "left": min((task.then_mm for task in tasks if not (task.instead or task.finds_out)), default=None),
         "instead": min((task.then_mm for task in tasks if task.instead), default=None),
         "mm": lambda mm: millimetres(subject.expected(mm)),
         "held_out": math.isfinite(verdict.held_out.after) and holds(verdict),

@@ -1,0 +1,47 @@
+"""Which causes a headline tells, in which order, and each with its shares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from armscope.verdict.calibrated import stands_out
+from armscope.verdict.constants import WORDS
+from armscope.verdict.effects import Cause
+from armscope.verdict.wording import SPREAD, percent
+
+WORST = ", most at "
+MOST_OF_ALL = ", most of all: "
+
+
+def with_share(cause: Cause, first: bool) -> str:
+    """A cause and its shares; those of a whole family stand before its largest member, which has only a part."""
+    family, worst, member = cause.text.partition(MOST_OF_ALL)
+    share = f"{percent(cause.share)}{' of the squared error' * first}"
+    if cause.share > WORDS.more_than_all:
+        share = "more than the whole squared error, as others cancel a part of it"
+    if stands_out(cause) and cause.share_after_calibration > WORDS.hidden_by_geometry * cause.share:
+        of_rest = f"{percent(cause.share_after_calibration)} of what calibration leaves"
+        share = of_rest if cause.share < WORDS.told_at_all else f"{share} ({of_rest})"
+    return f"{family} – {share}{worst}{member}"
+
+
+def told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
+    """The causes that a headline tells, and those that it counts."""
+
+    def has_a_name(cause: Cause) -> bool:
+        seen = cause.share > WORDS.told_though_unsure or stands_out(cause)
+        return bool(cause.members) and not cause.minor and seen and not is_spread(cause)
+
+    def is_large(cause: Cause) -> bool:
+        return cause.share > (WORDS.spread_told_first if is_spread(cause) else WORDS.told_first)
+
+    found = [cause for cause in causes if is_large(cause) or has_a_name(cause)]
+    first = [cause for cause in found if cause.share > WORDS.told_first]
+    then = sorted((cause for cause in found if cause not in first), key=lambda c: -c.share_after_calibration)
+    told = [*first, *then][: WORDS.causes] or list(causes[:1])
+    return told, [cause for cause in causes if cause not in told and abs(cause.share) >= WORDS.told_at_all]
+
+
+def is_spread(cause: Cause) -> bool:
+    """Whether a cause is small errors in the whole arm of which none stands out."""
+    return cause.everywhere and cause.text.partition(WORST)[0] == SPREAD.get(cause.family)

@@ -1,0 +1,46 @@
+"""What dominates once the geometry is calibrated is told, however little it is beside the geometry."""
+
+import math
+
+from armscope.verdict.effects import Cause
+from armscope.verdict.told_causes import is_spread, told_and_rest, with_share
+from armscope.verdict.wording import SPREAD
+
+
+def cause(family: str, share: float, after: float = math.nan, text: str = "", everywhere: bool = False) -> Cause:
+    text = text or f"something {family}"
+    return Cause(family, "effect", "arm", (f"{family} at arm",), everywhere, False, share, 0.1, text, "", after)
+
+
+ROWS = cause("geometric", 0.97, text=SPREAD["geometric"], everywhere=True)
+GIVES = cause("elastic", 0.02, 0.3)
+PLAY = cause("transmission", 0.004, 0.6)
+
+
+def test_what_calibration_leaves_comes_in_its_own_order() -> None:
+    told, rest = told_and_rest([ROWS, GIVES, PLAY])
+    assert told == [ROWS, PLAY, GIVES]
+    assert rest == []
+    assert with_share(PLAY, first=False) == "something transmission – 0.4 % (60 % of what calibration leaves)"
+    hidden = cause("transmission", -0.001, 0.6)
+    assert with_share(hidden, first=False) == "something transmission – 60 % of what calibration leaves"
+
+
+def test_a_share_that_is_the_same_either_way_is_told_once() -> None:
+    assert with_share(cause("elastic", 0.8, 0.82), first=True) == "something elastic – 80 % of the squared error"
+    assert with_share(cause("elastic", 0.8), first=False) == "something elastic – 80 %"
+
+
+def test_what_is_next_to_nothing_is_no_cause_at_all() -> None:
+    nothing, little = cause("thermal", 0.0004), cause("drift", 0.003, 0.05)
+    told, rest = told_and_rest([ROWS, little, nothing])
+    assert told == [ROWS]
+    assert rest == [little]
+
+
+def test_four_are_told() -> None:
+    five = [cause(f"kind {n}", 0.3 - 0.01 * n) for n in range(5)]
+    told, rest = told_and_rest(five)
+    assert (told, rest) == (five[:4], five[4:])
+    assert is_spread(ROWS)
+    assert not is_spread(PLAY)
