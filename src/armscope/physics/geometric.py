@@ -229,8 +229,7 @@ def _closed_loop(scene: LoadedArm, part: Part) -> Iterator[tuple[Direction, Arra
     errors = {term.name: value for term, value in zip(part.placed.terms, part.values, strict=True)}
     nominal = scene.linkage
     actual = replace(nominal, rocker=nominal.rocker + errors["rocker"], rod=nominal.rod + errors["rod"])
-    turn = forearm_deviation(actual, scene.elbow_angle) - forearm_deviation(nominal, scene.elbow_angle)
-    yield FOREARM, turn
+    yield FOREARM, forearm_deviation(actual, scene.elbow_angle) - forearm_deviation(nominal, scene.elbow_angle)
 
 
 PARALLELOGRAM_GEOMETRY = Effect(
@@ -240,10 +239,9 @@ PARALLELOGRAM_GEOMETRY = Effect(
     "The linkage's opposite bars differ in length, so the forearm does not keep parallel to its crank.",
     "Turn motor 2 alone and watch the forearm's inclination: in a true parallelogram it does not change.",
     Cure(
-        "Adjust each bar that is off by minus its error, all of them before anything is measured,",
+        "Adjust each bar that is off by minus its error, all before anything is measured,",
         otherwise="or put the true lengths into the controller's model (rod = stated rod + rod, rocker = stated rocker "
-        "+ rocker; errors without a unit are shares of the rocker's length), whose inverse kinematics then reaches the "
-        "wanted point.",
+        f"+ rocker; errors without a unit are shares {OF_WHAT}); its inverse kinematics then reaches the wanted point.",
         change="linkage",
         instruction="Set the parallelogram's bars right: {bars}.",
     ),
