@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from armscope.report.sections import locations
 from armscope.report.sections.effect_cards import card, chosen_how_often, title_of, told_parameters
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.wording import evidence_in_words
@@ -78,3 +79,12 @@ def test_the_weaker_of_evidence_and_choice_decides_what_a_card_calls_the_evidenc
     assert evidence_in_words(37.0, 0.97).startswith("overwhelming evidence")
     assert evidence_in_words(37.0).startswith("overwhelming evidence")
     assert card(verdicts.compliance(inclusion=0.6, evidence_nats=37.0), 1).evidence_words.startswith("some evidence")
+
+
+def test_a_card_tells_the_share_of_what_calibration_leaves_where_geometry_hides_it() -> None:
+    play = verdicts.found("backlash", "joint 2", Parameter("gap", "rad", 2e-4, 1e-6), share=0.01)
+    assert card(play, 1).of_rest == ""
+    assert card(replace(play, share_after_calibration=0.6), 1).of_rest == "60 % of what calibration leaves"
+    case = verdicts.case(effects=(replace(play, share_after_calibration=0.6),))
+    (place,) = (place for place in locations._ranking(case.verdict) if place.link)
+    assert place.told == "1.0 %, 60 % of what calibration leaves"

@@ -56,3 +56,12 @@ def test_small_errors_without_a_name_are_not_to_be_stored_by_hand(family: str) -
     assert "(`armscope compensate`), in place of all other steps" in told
     pair = [verdicts.compliance("joint 2"), verdicts.compliance("joint 3")]
     assert "named" in cure_of_family(family, pair, everywhere=True)
+
+
+def test_a_family_without_a_cure_of_its_own_tells_each_members() -> None:
+    """A target that is loose is not mended by a scale."""
+    scale = verdicts.found("instrument_scale", "instrument")
+    loose = verdicts.found("loose_target", "tool")
+    told = cure_of_family("instrument", [scale, loose], everywhere=False)
+    assert scale.cure in told
+    assert loose.cure in told

@@ -84,5 +84,5 @@ def cure_of_family(
         return f"{SCALE_ALL} {growth} Or {BY_MODEL}.{each_other} {KEPT_WARM}"
     if members and all(each.nameless and each.driver.startswith(ELSEWHERE) for each in members):
         return members[0].cure  # nothing of these is in a table over the joint's own angle
-    mend = _CURES.get(family, members[0].cure if members else "")
+    mend = _CURES.get(family, " ".join(dict.fromkeys(each.cure for each in members)))
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from armscope.verdict.calibrated import stands_out
 from armscope.verdict.constants import WORDS
-from armscope.verdict.effects import Cause
+from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.wording import SPREAD, percent
 
 WORST = ", most at "
@@ -19,10 +19,16 @@ def with_share(cause: Cause, first: bool) -> str:
     share = f"{percent(cause.share)}{' of the squared error' * first}"
     if cause.share > WORDS.more_than_all:
         share = "more than the whole squared error, as others cancel a part of it"
-    if stands_out(cause) and cause.share_after_calibration > WORDS.hidden_by_geometry * cause.share:
-        of_rest = f"{percent(cause.share_after_calibration)} of what calibration leaves"
+    if of_rest := of_what_calibration_leaves(cause):
         share = of_rest if cause.share < WORDS.told_at_all else f"{share} ({of_rest})"
     return f"{family} – {share}{worst}{member}"
+
+
+def of_what_calibration_leaves(told: FoundEffect | Cause) -> str:
+    """ "60 % of what calibration leaves"; "" where that is little, or little more than of the whole."""
+    after = told.share_after_calibration
+    hidden = stands_out(told) and after > WORDS.hidden_by_geometry * told.share
+    return f"{percent(after)} of what calibration leaves" if hidden else ""
 
 
 def told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:

@@ -15,6 +15,7 @@ from armscope.diagnosis.held_out_worth import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
 from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, MENDED
+from armscope.physics.zero_shift import ZERO_SHIFT
 from armscope.verdict.calibrated import mended_by_calibration
 from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
 from armscope.verdict.family_cures import cure_of_family
@@ -76,7 +77,8 @@ def _group(effect: FoundEffect) -> str:
 
     So is what geometry has beside zeros and rows: no calibration mends an axis that wobbles, or a linkage's bars.
     """
-    if effect.family == GEOMETRIC and not mended_by_calibration(effect):
+    apart = effect.family == GEOMETRIC and not mended_by_calibration(effect)
+    if apart or effect.effect == ZERO_SHIFT.name:  # a zero that jumped is set, not fastened as base and instrument are
         return effect.effect
     return effect.location if effect.location == PAYLOAD else effect.family
 

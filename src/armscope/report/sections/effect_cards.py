@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, FoundEffect, Parameter
+from armscope.verdict.told_causes import of_what_calibration_leaves
 from armscope.verdict.wording import (
     Reading,
     capitalised,
@@ -49,6 +50,7 @@ class Card:
     what: str
     location: str
     share: str
+    of_rest: str
     share_width: float
     size: str
     readings: tuple[Reading, ...]
@@ -86,6 +88,7 @@ def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool
         what=what_kind(effect),
         location=effect.location,
         share=percent(effect.share),
+        of_rest=of_what_calibration_leaves(effect),
         share_width=min(100.0, max(0.0, 100 * effect.share)),
         size=millimetres(effect.rms_at_tool_mm),
         readings=shown,

@@ -27,11 +27,12 @@ class Place:
     link: str
     share: float
     quiet: bool = False
+    of_rest: str = ""
 
     @property
     def told(self) -> str:
-        """The share in words."""
-        return percent(self.share)
+        """The share in words; what it is of what calibration leaves, where that is told."""
+        return f"{percent(self.share)}{', ' * bool(self.of_rest)}{self.of_rest}"
 
     @property
     def width(self) -> float:
@@ -53,7 +54,10 @@ def _ranking(verdict: Diagnosis) -> list[Place]:
     """Causes, minor effects together, and small errors by family, the largest share first."""
     found = findings(verdict)
     main, minor = main_and_minor(verdict.effects)
-    places = [Place(card.title, f"#{card.anchor}", e.share) for card, e in zip(found["cards"], main, strict=True)]
+    places = [
+        Place(card.title, f"#{card.anchor}", e.share, of_rest=card.of_rest)
+        for card, e in zip(found["cards"], main, strict=True)
+    ]
     for cause in minor_and_told(verdict.causes):
         those = [effect for effect in minor if effect.as_member in cause.members]
         minor = [effect for effect in minor if effect not in those]
