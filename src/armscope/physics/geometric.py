@@ -246,7 +246,7 @@ PARALLELOGRAM_GEOMETRY = Effect(
         instruction="Set the parallelogram's bars right: {bars}.",
     ),
     clauses=(bars_differ,),
-    labels={bar: f"{bar} is off by (a share: {OF_WHAT})" for bar in BARS},
+    labels={bar: f"{bar} is off by (ppm: {OF_WHAT})" for bar in BARS},
     atlas="constant",
     exact=_closed_loop,
     departs=True,
