@@ -1,8 +1,10 @@
 """What dominates once the geometry is calibrated is told, however little it is beside the geometry."""
 
 import math
+from dataclasses import replace
 
 from armscope.verdict.effects import Cause
+from armscope.verdict.importance import minor_and_told
 from armscope.verdict.told_causes import is_spread, told_and_rest, with_share
 from armscope.verdict.wording import SPREAD
 
@@ -36,6 +38,15 @@ def test_what_is_next_to_nothing_is_no_cause_at_all() -> None:
     told, rest = told_and_rest([ROWS, little, nothing])
     assert told == [ROWS]
     assert rest == [little]
+
+
+def test_members_that_stand_out_only_together_are_told() -> None:
+    together = replace(cause("elastic", 0.01, 0.18), minor=True)
+    assert told_and_rest([ROWS, together])[0] == [ROWS, together]
+    assert minor_and_told([ROWS, together]) == [together]
+    little = replace(together, share_after_calibration=0.05)
+    assert told_and_rest([ROWS, little])[1] == [little]
+    assert minor_and_told([ROWS, little]) == []
 
 
 def test_four_are_told() -> None:

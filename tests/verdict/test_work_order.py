@@ -223,6 +223,9 @@ def test_minor_curves_that_the_headline_tells_together_are_one_step() -> None:
     assert not [place for place in ranking if "minor effect" in place.name], "nothing stands twice"
     untold = work_order(replace(case.verdict, causes=(replace(told, share=0.01),)), worth).tasks
     assert "joints 3 and 5" not in [task.place for task in untold]
+    vague = replace(single[0], effects=(replace(curves[0], named_as="region", title="unknown, around joint 3"),))
+    unsettled = work_order(replace(case.verdict, causes=(told,)), replace(worth, single=(vague, single[1]))).tasks
+    assert unsettled[1].unsettled, "what holds an unsettled member is settled first"
 
 
 def test_a_drive_whose_joint_scatters_is_left_alone_until_that_is_settled() -> None:

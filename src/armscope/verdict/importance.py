@@ -141,7 +141,8 @@ def _retold(
 
 def minor_and_told(causes: Sequence[Cause]) -> list[Cause]:
     """Causes that a headline tells though each member by itself is minor: curves at several joints, say."""
-    return [cause for cause in causes if cause.minor and cause.members and cause.share > WORDS.told_first]
+    together = [cause for cause in causes if cause.minor and cause.members]
+    return [cause for cause in together if cause.share > WORDS.told_first or stands_out(cause)]
 
 
 def expected(verdict: Diagnosis, worth: Contributions, mm: float) -> float:

@@ -35,8 +35,8 @@ def told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
     """The causes that a headline tells, and those that it counts."""
 
     def has_a_name(cause: Cause) -> bool:
-        seen = cause.share > WORDS.told_though_unsure or stands_out(cause)
-        return bool(cause.members) and not cause.minor and seen and not is_spread(cause)
+        seen = stands_out(cause) or (cause.share > WORDS.told_though_unsure and not cause.minor)
+        return bool(cause.members) and seen and not is_spread(cause)
 
     def is_large(cause: Cause) -> bool:
         return cause.share > (WORDS.spread_told_first if is_spread(cause) else WORDS.told_first)

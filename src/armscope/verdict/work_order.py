@@ -13,6 +13,7 @@ from armscope.physics.backgrounds import DRIFT, ELASTIC, GEOMETRIC, THERMAL, TRA
 from armscope.verdict.constants import ORDER, REPAIRS
 from armscope.verdict.contributions import Contributions, Repair
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.doubts import OPEN
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.entered_together import (
     CALIBRATION,
@@ -190,7 +191,7 @@ def _as_one(cause: Cause, members: Sequence[Repair], jobs: Sequence[Job]) -> Job
     task = Task(
         what=capitalised(cause.text),
         place=places_in_words(list(dict.fromkeys(each.effects[0].location for each in members))),
-        change=enumerated(list(changes)),
+        change=OPEN if OPEN in changes else enumerated(list(changes)),
         motion="; ".join(task.motion for task in tasks if task.motion),
         instruction=cause.cure.replace("`", ""),
         cure=" ".join(f"{capitalised(task.place)}: {task.cure}" for task in tasks),
