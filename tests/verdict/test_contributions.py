@@ -156,3 +156,12 @@ def test_a_compliance_beside_fitted_mass_moments_promises_what_its_formula_takes
     task = work_order(verdict, worth).tasks[0]
     assert "mass moments behind this number were fitted" in task.cure
     assert work_order(verdict, worth).tasks[-1].change == "corrected commands", "which take out the rest"
+
+
+def test_of_many_major_effects_those_that_weigh_most_stand_apart() -> None:
+    """By the whole error alone what dominates after a calibration was taken together with the minor ones."""
+    sizes = Parameter("gap", "rad", 2e-4, 1e-6)
+    many = [verdicts.found("backlash", f"joint {n}", sizes, share=0.1 * (8 - n)) for n in range(1, 8)]
+    many[-1] = replace(many[-1], share=0.004, share_after_calibration=0.6)
+    apart = contributions(verdicts.case("seven-axis", tuple(many)).verdict).causes
+    assert [cause.effects[0].location for cause in apart] == [f"joint {n}" for n in (1, 2, 3, 4, 5, 7)]

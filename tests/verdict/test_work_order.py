@@ -262,3 +262,20 @@ def test_rows_that_the_calibration_finds_are_not_to_be_entered_besides(tmp_path:
         assert ("enter those that it finds, not these" in page) == told
         assert ("Enter all of them together" in page) != told
         assert pd.read_csv(tmp_path / "corrected_dh.csv")["step"].dropna().tolist() == [steps_of_rows(rows, order)[1]]
+
+
+@pytest.mark.parametrize(("minor", "steps"), [(False, 2), (True, 1)])
+def test_a_major_effect_that_does_not_stand_apart_has_a_step_where_it_is_felt(minor: bool, steps: int) -> None:
+    """What is one of more than six is no less a cause: it pays by a tenth, and so it is ordered."""
+    gap = Parameter("gap", "rad", 2e-4, 1e-6)
+    first, other = (verdicts.found("backlash", f"joint {n}", gap) for n in (2, 3))
+    case = verdicts.case(effects=(first, replace(other, minor=minor)))
+    worth = contributions(case.verdict)
+    large, some, noise = np.random.default_rng(0).normal(0, 1, (3, *worth.left.shape))
+    one = replace(worth.causes[0], effects=(replace(other, minor=minor),), moved=0.45 * some)
+    causes = (replace(worth.causes[0], moved=large),)
+    tasks = work_order(
+        case.verdict, replace(worth, causes=causes, small={}, smaller=one, single=(one,), left=noise)
+    ).tasks
+    assert [task.place for task in tasks][:steps] == ["joint 2", "joint 3"][:steps]
+    assert len([task for task in tasks if not task.instead]) == steps

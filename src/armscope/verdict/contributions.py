@@ -227,6 +227,7 @@ def contributions(verdict: Diagnosis) -> Contributions:
     """What each cause of a verdict moves, on at most `REPAIRS.rows` rows that are no bad shots."""
     ground, parts = ground_of(verdict), parts_of(verdict)
     main, minor = main_and_minor(verdict.effects)
+    apart = {id(effect) for effect in sorted(main, key=lambda effect: -effect.weight)[: REPAIRS.major_apart]}
 
     def alone(effect: FoundEffect) -> Repair:
         its = parts[id(effect)]
@@ -236,8 +237,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
             return Repair(effect.title, (effect,), its, fitted, zero)
         return Repair(effect.title, (effect,), its, worded, zero, fitted - worded)
 
-    causes = tuple(alone(effect) for effect in main[: REPAIRS.major_apart])
-    rest = [effect for effect in (*main[REPAIRS.major_apart :], *minor) if parts[id(effect)]]
+    causes = tuple(alone(effect) for effect in main if id(effect) in apart)
+    rest = [effect for effect in (*main, *minor) if parts[id(effect)] and id(effect) not in apart]
     together = tuple(part for effect in rest for part in parts[id(effect)])
     name = f"{len(rest)} smaller effects together" if len(rest) > 1 else "one smaller effect"
     smaller = Repair(name, tuple(rest), together, ground.moved_by(together)) if rest else None

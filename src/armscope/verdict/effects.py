@@ -170,6 +170,11 @@ class FoundEffect:
         return f"{self.effect} at {self.location}"
 
     @property
+    def weight(self) -> float:
+        """The larger of its shares, of the whole and of what calibration leaves."""
+        return max(self.share, self.share_after_calibration if math.isfinite(self.share_after_calibration) else 0.0)
+
+    @property
     def nameless(self) -> bool:
         """Whether no known physics explains it: it is known by what it follows alone."""
         return self.family == UNKNOWN

@@ -122,7 +122,8 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
 
     told, single = _told_together(verdict, worth.single)
     together = [_as_one(cause, members, jobs(members)) for cause, members in told]
-    major, minor = jobs(worth.causes), jobs(single)
+    major = jobs([*worth.causes, *(each for each in single if not each.effects[0].minor)])
+    minor = jobs([each for each in single if each.effects[0].minor])
     repairs = [*major, *together]
     worst = {each.family: each.worst for each in verdict.background_families if each.present and each.family in SMALL}
     growth = growth_in_words(verdict.model.background)
