@@ -56,6 +56,12 @@ def test_what_turns_is_taken_back_by_what_it_gained():
     assert "Add −870 µrad per rad to what the controller" in told.instruction
 
 
+def test_a_bar_that_changed_is_set_back():
+    rocker = replace(NUMBER, name="rocker", unit="m/m")
+    told = remedy_of(FOUND, replace(CHANGE, effect="parallelogram_geometry", parameters=(rocker,)))
+    assert "make the rocker shorter by 870 ppm" in told.instruction
+
+
 def test_the_interval_is_kept():
     assert difference_of(NUMBER).interval == pytest.approx(NUMBER.interval_95)
 

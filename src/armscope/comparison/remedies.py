@@ -17,6 +17,7 @@ from armscope.core.words import enumerated
 from armscope.physics.effect import Effect
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named
+from armscope.verdict.bars import bars_set_right
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.tasks import with_numbers
@@ -191,6 +192,7 @@ def _words(known: Effect, location: str, differences: list[Parameter], verb: str
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
     words |= {"location": location, "size": "", "jump": "", "correction": "take what changed back in the command"}
+    words["bars"] = bars_set_right(differences)
     told = (f"{each.name} {length(each.value, each.stderr)}" for each in differences if each.unit == "mm")
     turned = (f"{each.name} {angle(each.value, each.stderr)}" for each in differences if each.unit == "rad")
     words["row"] = f"what stood there and {enumerated([*told, *turned])}"
