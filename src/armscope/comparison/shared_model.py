@@ -26,6 +26,8 @@ from armscope.measurement import robust
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames
 from armscope.physics.registry import library
+from armscope.physics.tilting import ABOUT_ITS_FOOT
+from armscope.physics.wobble import RUNS_OUT
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
@@ -39,7 +41,8 @@ class SharedModel:
         residual = point_residuals(model, table)
         weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
         placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]
-        self.placed = [each for each in placed if len(each.terms) <= SHARED.terms and not each.nameless]
+        simple = [each for each in placed if not each.variant.endswith((RUNS_OUT, ABOUT_ITS_FOOT))]
+        self.placed = [each for each in simple if len(each.terms) <= SHARED.terms and not each.nameless]
         frames = [term for each in free_frames(table, False) for term in each.terms]
         terms = [term for each in self.placed for term in each.terms]
         columns = weight[:, None] * columns_of_rows(model, table, [*frames, *terms])
