@@ -20,7 +20,6 @@ from armscope.motion.fitting.ringing import ringing
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_of, select_causes
-from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -64,6 +63,7 @@ from armscope.motion.summary.late_friction import told_late
 from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
+from armscope.motion.summary.names_of_masses import share_of_masses
 from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
 from armscope.motion.summary.tenable import tenable
@@ -268,7 +268,7 @@ def _judged(
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = left_over(selected)
     left = unexplained(found, lasting)
-    off = _masses_off(selected)
+    off = share_of_masses(selected, selected.best)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
@@ -292,9 +292,3 @@ def _judged(
         runs=(),
     )
     return verdict, held, as_entered(selected, parts, order)
-
-
-def _masses_off(selected: SelectedCauses) -> float:
-    """Share of a link's mass, and so on, within which masses are off without a name."""
-    sizes = zip(selected.space.families, selected.best.background, strict=True)
-    return max(float(family.label(size)) for family, size in sizes if family.name in OF_MASSES)

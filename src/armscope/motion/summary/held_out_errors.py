@@ -36,8 +36,12 @@ class HeldOutErrors:
 
     @property
     def only_unnamed(self) -> bool:
-        """Whether masses that are off without a name help: what else is free of every name helps hardly at all."""
-        return self.masses > 0 and self.named < HELD_OUT.clearly_better * self.without
+        """Whether masses that are off without a name help: what else is free of every name helps hardly at all.
+
+        Where these add what anybody would look for, any help will do: they may matter at one joint of three.
+        """
+        least = HELD_OUT.any_better if self.by_masses >= HELD_OUT.little_share else HELD_OUT.clearly_better
+        return self.masses > 0 and self.named < least * self.without
 
     @property
     def foretells_nothing(self) -> bool:
