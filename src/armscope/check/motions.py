@@ -61,7 +61,9 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     motions, alone = without_spikes(motions)
     motions, turns = counted_on(motions)
     kept, time, notices = mended_rows(motions)
-    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*alone, *turns, *notices, *doubts_about(motions)]]
+    told = [
+        Suspicion("hint", notice.text.rstrip(".")) for notice in [*alone, *turns, *notices, *doubts_about(motions, arm)]
+    ]
     even = motions.rows(kept).at_times(time)
     told += [Suspicion("hint", notice.text.rstrip(".")) for notice in gaps(even)]
     broken = list(_leaps(motions))

@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
+from armscope.motion.check import COARSE, CUT_OFF, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
@@ -30,8 +30,9 @@ from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_lin
 from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.rails import rails
 from armscope.motion.samples.spikes import without_spikes
-from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
+from armscope.motion.samples.timing import Stretch, gaps, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.entering import Entered, as_entered
@@ -215,8 +216,8 @@ def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) ->
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
-    """The headline; where nothing is missing, with gains that say so, and how coarsely the torque was recorded."""
-    kinds = (COARSE, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
+    """The headline; where nothing is missing, with gains that say so, and how coarsely and far torque is recorded."""
+    kinds = (COARSE, CUT_OFF, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
     return " ".join([verdict.headline, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
@@ -233,15 +234,13 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
         raise short
     train: list[Stretch] = []
     test: list[Stretch] = []
-    ends = {run: limits(motions.effort[motions.run == run]) for run in motions.runs}
-    idle = unread(motions.run, motions.time, motions.q, motions.effort)
+    idle = unread(motions.run, motions.time, motions.q, motions.effort) | rails(motions, arm).at
     for stretch in stretches(motions):
         if len(stretch) > FILTER.shortest_s * stretch.rate:
-            cut = (stretch.effort <= ends[stretch.run][0]) | (stretch.effort >= ends[stretch.run][1])
             own = motions.run == stretch.run
             at = np.searchsorted(motions.time[own], stretch.time).clip(0, np.count_nonzero(own) - 1)
-            cut |= idle[own][at]
-            as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind), cut=cut)
+            effort = torque_of(arm, stretch.effort, motions.kind)
+            as_torque = replace(stretch, effort=effort, cut=idle[own][at])
             (test if stretch.run in held_out else train).append(as_torque)
     if not train and test:
         rule = "a run at least takes part in the fit"
