@@ -36,17 +36,16 @@ from armscope.motion.samples.timing import Stretch, gaps, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.entering import Entered, as_entered
+from armscope.motion.summary.harming import without_what_harms
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
+    Fold,
     HeldOutTorque,
     errors_by_run,
-    folds,
-    held_out_in_words,
+    held_out_parts,
     held_out_torques,
     measure,
-    own_fold,
     that_others_tell,
-    waterfall,
 )
 from armscope.motion.summary.identifiable import identifiable, little_excited
 from armscope.motion.summary.intervals import Sureness, covariance_of, level_told
@@ -67,6 +66,7 @@ from armscope.motion.summary.link_weights import rather_all_links, told_links
 from armscope.motion.summary.names_of_masses import share_of_masses
 from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
+from armscope.motion.summary.step_by_step import waterfall
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
@@ -176,14 +176,15 @@ def diagnose_motion(
     selected = select_causes(layout, train, how, runs, weighing, replace(first.model, turning=turning.late))
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
-    layout = selected.rows.layout
-    notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout)]
-    notices += [*told_gains(selected), *load_or_link(selected)]
     progress("measuring on motion that took no part", 0.75)
-    apart = build_rows(layout, test, how, model_of(selected)) if test else None
-    verdict, held, entered = _judged(selected, sure, apart, settings)
+    apart = build_rows(selected.rows.layout, test, how, model_of(selected)) if test else None
+    parts, what = held_out_parts(selected, apart, settings.held_out)
+    selected, sure = without_what_harms(selected, sure, parts, _carried(motions))
+    notices += [*told, *gaps(motions), *_of_the_selection(selected)]
+    verdict, held, entered = _judged(selected, sure, parts, what)
     twists = judged_twists(selected, seen, train, how)
     verdict = with_links(verdict, [twist.side for twist in twists])
+    progress("done", 1.0)
     verdict = replace(
         verdict,
         headline=_as_far_as_recorded(verdict, notices),
@@ -193,8 +194,13 @@ def diagnose_motion(
         runs=runs,
         settings=asdict(settings),
     )
-    progress("done", 1.0)
     return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
+
+
+def _of_the_selection(selected: SelectedCauses) -> list[Notice]:
+    """What is said beside the names: how little the motion tells, of gains, and of a stated load."""
+    of_gains = [*level_told(selected.rows.layout), *told_gains(selected)]
+    return [*little_excited(selected), *of_gains, *load_or_link(selected)]
 
 
 def _refuse_unknown(runs: Sequence[str], motions: Motions) -> None:
@@ -249,13 +255,8 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 
 def _judged(
-    selected: SelectedCauses, sure: Sureness, test: MotionRows | None, settings: MotionSettings
+    selected: SelectedCauses, sure: Sureness, parts: list[Fold], what: str
 ) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[Entered, ...]]:
-    if test is None:
-        parts = folds(selected)
-        what = held_out_in_words(parts)
-    else:
-        parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
     held = held_out_torques(parts)
     by_run = errors_by_run(held)
     parts, held, alone = that_others_tell(selected, parts, held)

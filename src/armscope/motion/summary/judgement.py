@@ -213,7 +213,7 @@ def headline(
     if not found and lasting:
         return f"{beyond}No cause of the library explains it. {errors.words()}"
     if not found:
-        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
+        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.named)} %."
         if errors.foretells_nothing:
             return (
                 "Cannot tell what is missing: the model foretells these torques no better than none at all, and no "
