@@ -78,3 +78,15 @@ def test_the_weaker_of_evidence_and_choice_decides_what_a_card_calls_the_evidenc
     assert evidence_in_words(37.0, 0.97).startswith("overwhelming evidence")
     assert evidence_in_words(37.0).startswith("overwhelming evidence")
     assert card(verdicts.compliance(inclusion=0.6, evidence_nats=37.0), 1).evidence_words.startswith("some evidence")
+
+
+@pytest.mark.parametrize(
+    ("gap", "told"),
+    [(-54.9, "fits 54.9 nats better here, but was struck out"), (-0.3, "fits as well"), (4.5, "4.5 nats worse")],
+)
+def test_what_was_struck_out_is_not_called_too_close(gap: float, told: str) -> None:
+    """ "54.9 nats better – too close to tell apart" stood beside overwhelming evidence."""
+    rival = Alternative("gear_mesh", "joint 4", "transmission", gap, "joint angle", gap)
+    (shown,) = card(replace(compliance(), alternatives=(rival,)), 1).alternatives
+    assert shown.gap.startswith(told)
+    assert shown.too_close is (abs(gap) < 3)

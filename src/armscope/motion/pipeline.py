@@ -189,7 +189,7 @@ def diagnose_motion(
         verdict,
         headline=_as_far_as_recorded(verdict, notices),
         preparation=how.words + pauses_in_words(selected.rows.pauses),
-        notices=(*notices, *told_late(selected, sure), *verdict.notices),
+        notices=(*notices, *verdict.notices, *told_late(selected, sure)),
         samples=len(motions),
         runs=runs,
         settings=asdict(settings),
