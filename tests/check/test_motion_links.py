@@ -31,6 +31,18 @@ def test_a_link_that_winds_up_a_little_is_not_accused() -> None:
     assert not list(links_beside_motors(good))
 
 
+def test_links_of_other_joints_are_told_as_shifted() -> None:
+    """They were asked to be the motor's own turns, by factors that nothing means."""
+    good = moved(robot(), 5, seconds=8.0)
+    shifted = np.column_stack([np.full(len(good.q), np.nan), good.q[:, :2] + 1e-4])
+    found = list(links_beside_motors(replace(good, link=shifted)))
+    assert [each.statement.split(",")[0] for each in found] == [
+        "q2_link is the position of joint 1",
+        "q3_link is the position of joint 2",
+    ]
+    assert [each.cure.split()[-1] for each in found] == ["q1_link.", "q2_link."]
+
+
 def test_links_are_read_in_either_unit_joint_by_joint() -> None:
     rows = table(robot(), 5, seconds=2.0)
     rows["q2_link_deg"] = np.degrees(rows["q2_rad"]) + 1.0

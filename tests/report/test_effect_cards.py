@@ -88,3 +88,15 @@ def test_a_card_tells_the_share_of_what_calibration_leaves_where_geometry_hides_
     case = verdicts.case(effects=(replace(play, share_after_calibration=0.6),))
     (place,) = (place for place in locations._ranking(case.verdict) if place.link)
     assert place.told == "1.0 %, 60 % of what calibration leaves"
+
+
+@pytest.mark.parametrize(
+    ("gap", "told"),
+    [(-54.9, "fits 54.9 nats better here, but was struck out"), (-0.3, "fits as well"), (4.5, "4.5 nats worse")],
+)
+def test_what_was_struck_out_is_not_called_too_close(gap: float, told: str) -> None:
+    """ "54.9 nats better – too close to tell apart" stood beside overwhelming evidence."""
+    rival = Alternative("gear_mesh", "joint 4", "transmission", gap, "joint angle", gap)
+    (shown,) = card(replace(compliance(), alternatives=(rival,)), 1).alternatives
+    assert shown.gap.startswith(told)
+    assert shown.too_close is (abs(gap) < 3)

@@ -28,7 +28,8 @@ def other_clock(motions: Motions, runs: dict[str, tuple[Array, Samples]], arm: M
         arm: whose masses are stated.
 
     Yields:
-        A problem, for all joints at once where one lag of all says most, else by joint.
+        A problem, for all joints at once where one lag of all says most, else by joint; nothing where masses and
+        friction meet torque as recorded.
     """
     least_told, farthest, step = MOTION.clock
     lags = np.arange(-farthest, farthest + step / 2, step)
@@ -37,12 +38,17 @@ def other_clock(motions: Motions, runs: dict[str, tuple[Array, Samples]], arm: M
     times_less = np.log(left[now] / np.maximum(left, 1e-300))
     alike = int(np.argmax(times_less.sum(axis=1)))
     gained = times_less[alike]
-    if abs(lags[alike]) > least_told and gained.min() > 0 and gained.sum() > np.log(MOTION.clearly):
+    well_met = float(np.median(left[now])) < MOTION.met_as_recorded
+    if not well_met and abs(lags[alike]) > least_told and gained.min() > 0 and gained.sum() > np.log(MOTION.clearly):
         every = np.arange(motions.n_motors)
         yield _told(motions.kind, lags[alike], every, (left[now], left[alike]))
         return
     for j, best in enumerate(np.argmax(times_less, axis=0)):
-        if abs(lags[best]) > least_told and times_less[best, j] > np.log(MOTION.at_another_time):
+        if (
+            left[now, j] > MOTION.met_as_recorded
+            and abs(lags[best]) > least_told
+            and times_less[best, j] > np.log(MOTION.at_another_time)
+        ):
             yield _told(motions.kind, lags[best], np.array([j]), (left[now], left[best]))
 
 

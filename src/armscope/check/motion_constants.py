@@ -56,6 +56,9 @@ class MotionRules(Constants):
         "times the masses' torque, from which one joint's is another quantity",
         "judgement: ten times that of most",
     )
+    load_within: float = constant(
+        1.0, "of the last joint, within which a load's centre lies", "judgement: tools are shorter", unit="m"
+    )
     reading_rows: int = constant(300, "that other units and orders are tried on", "judgement: time", unit="rows")
     reading_samples: int = constant(
         60, "fewest samples on which they are tried", "judgement: fewer tell nothing", unit="samples"
@@ -107,6 +110,11 @@ class MotionRules(Constants):
         "from which, up to which and in which steps torque is looked for at another time than motion",
         "judgement: a diagnosis tries 36 ms, recordings started by hand differ by more; beyond, nobody overlooks it",
         unit="s",
+    )
+    met_as_recorded: float = constant(
+        0.03,
+        "of the power of a torque, or of most, that may be left as recorded where no other clock is looked for",
+        "measured: put off by 60 to 70 ms, eight simulated recordings leave 3.7 to 9 % in the middle joint",
     )
     at_another_time: float = constant(
         2.0,

@@ -12,17 +12,36 @@ from armscope.recordings.motions import Motions
 
 
 def links_beside_motors(motions: Motions) -> Iterator[Suspicion]:
-    """What is wrong with links' positions, joint by joint."""
+    """What is wrong with links' positions, joint by joint; the position of another joint is told as that."""
     if motions.link is None:
         return
-    for j in np.flatnonzero(np.isfinite(motions.link).all(axis=0)):
+    for j in np.flatnonzero(np.isfinite(motions.link).all(axis=0)).tolist():
         motor, link = motions.q[:, j], motions.link[:, j]
         if np.ptp(motor) < MOTION.link_travel:
             continue
         factor = float(np.polyfit(motor, link, 1)[0])
-        if abs(factor - 1) > MOTION.link_factor:
-            statement = f"q{j + 1}_link turns {factor:.4g} times as far as q{j + 1}"
-            yield Suspicion("problem", statement, _guessed(factor))
+        if abs(factor - 1) <= MOTION.link_factor:
+            continue
+        if (other := _follows(motions, j)) is not None:
+            statement = f"q{j + 1}_link is the position of joint {other + 1}, and not of joint {j + 1}"
+            cure = f"Are columns shifted or exchanged? Call it q{other + 1}_link."
+        else:
+            statement, cure = f"q{j + 1}_link turns {factor:.4g} times as far as q{j + 1}", _guessed(factor)
+        yield Suspicion("problem", statement, cure)
+
+
+def _follows(motions: Motions, j: int) -> int | None:
+    """The other joint that a link's position follows as its own link does, if it is one."""
+    assert motions.link is not None
+    for other in range(motions.n_motors):
+        motor = motions.q[:, other]
+        if other == j or np.ptp(motor) < MOTION.link_travel:
+            continue
+        factor, zero = np.polyfit(motor, motions.link[:, j], 1)
+        missed = float(np.std(motions.link[:, j] - factor * motor - zero))
+        if abs(factor - 1) < MOTION.link_factor and missed < MOTION.link_factor * np.std(motor):
+            return other
+    return None
 
 
 def _guessed(factor: float) -> str:

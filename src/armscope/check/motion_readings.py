@@ -72,11 +72,16 @@ class OtherReading:
     order: tuple[int, ...] = ()
 
 
+def ordinary_columns(samples: Samples, j: int) -> Array:
+    """(N, 4) offset, dry and viscous friction and a rotor of a joint."""
+    dq = samples.dq[:, j]
+    return np.column_stack([np.ones(len(dq)), np.sign(dq), dq, samples.ddq[:, j]])
+
+
 def beyond_friction(samples: Samples, rigid: Array) -> Iterator[tuple[Array, Array]]:
     """By joint, (N,) torque as recorded and as the masses ask for, each without offset, friction and a rotor."""
     for j in range(rigid.shape[1]):
-        dq, ddq = samples.dq[:, j], samples.ddq[:, j]
-        ordinary = np.column_stack([np.ones(len(dq)), np.sign(dq), dq, ddq])
+        ordinary = ordinary_columns(samples, j)
         recorded, asked = (
             each - ordinary @ np.linalg.lstsq(ordinary, each, rcond=None)[0]
             for each in (samples.effort[:, j], rigid[:, j])

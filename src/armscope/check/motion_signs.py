@@ -9,7 +9,8 @@ import numpy as np
 
 from armscope.check.motion_channels import OF_MASSES, SIGN, Channels, turn
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import Samples, beyond_friction
+from armscope.check.motion_load import factors_of, is_of_another_size
+from armscope.check.motion_readings import Samples
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.robot.dynamics import MovingArm
@@ -28,16 +29,12 @@ def signs_and_sizes(samples: Samples, arm: MovingArm, of: Channels) -> Iterator[
     """
     few = samples.rows(spread_evenly(len(samples.q), MOTION.rows))
     rigid = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
-    factors: dict[int, float] = {}
-    for j, (left, asked) in enumerate(beyond_friction(few, rigid)):
-        power = float(asked @ asked)
-        if power > 0 and (asked @ left) ** 2 >= MOTION.explained * power * float(left @ left):
-            factors[j] = float(asked @ left) / power
+    factors = factors_of(few, rigid)
     most = float(np.median(np.abs(list(factors.values())))) if factors else 1.0
     for j, factor in factors.items():
         if factor < 0:
             yield Suspicion("problem", f"{of.names[j]} {SIGN} to {OF_MASSES}", _turned(arm, of))
-        elif not of.currents and not 1 / MOTION.other_size < factor < MOTION.other_size:
+        elif not of.currents and is_of_another_size(factor):
             yield _other_size(of.names[j], factor, most)
 
 

@@ -13,6 +13,7 @@ from armscope.check.motion_channels import Channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_links import links_beside_motors
+from armscope.check.motion_load import unstated_load, with_a_load
 from armscope.check.motion_mistakes import mistakes
 from armscope.check.motion_readings import Samples
 from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
@@ -61,7 +62,9 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     motions, alone = without_spikes(motions)
     motions, turns = counted_on(motions)
     kept, time, notices = mended_rows(motions)
-    told = [Suspicion("hint", notice.text.rstrip(".")) for notice in [*alone, *turns, *notices, *doubts_about(motions)]]
+    told = [
+        Suspicion("hint", notice.text.rstrip(".")) for notice in [*alone, *turns, *notices, *doubts_about(motions, arm)]
+    ]
     even = motions.rows(kept).at_times(time)
     told += [Suspicion("hint", notice.text.rstrip(".")) for notice in gaps(even)]
     broken = list(_leaps(motions))
@@ -70,6 +73,9 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     if arm is not None and not broken:  # speeds across a leap are no speeds
         runs = {run: _coarse(even, run) for run in even.runs}
         samples = _samples([few for _, few in runs.values()])
+        if even.kind == "torque" and (loaded := with_a_load(samples, arm)) is not None:
+            arm, mass = loaded
+            found.append(unstated_load(mass))
         found += mistakes(samples, arm, Channels.of(even, arm))
         found += other_clock(even, runs, arm)
     return MotionCheck(tuple(_contents(even)), tuple(found))

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from armscope.core.inputs import InputError
 from armscope.motion.constants import CHECK, LIBRARY
 from armscope.motion.samples.constants import FILTER, READING
-from armscope.motion.samples.timing import coarse_steps, limits, parted
+from armscope.motion.samples.rails import Rails, rails
+from armscope.motion.samples.timing import coarse_steps, parted
 from armscope.motion.samples.unread import unread
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 COARSE = "coarse channel"
 """Kind of the notice that rounding of the recorded torque limits what can be told."""
+CUT_OFF = "cut off"
+"""Kind of the notice that a channel ends at a rail."""
 MOVES = "a joint moves by more than servo noise"
 
 
@@ -35,7 +38,7 @@ def check_motions(arm: MovingArm, motions: Motions) -> list[Notice]:
     refuse_other_joints(arm, motions)
     refuse_unknown_gains(arm, motions)
     _refuse_dead(motions)
-    return doubts_about(motions)
+    return doubts_about(motions, arm)
 
 
 def refuse_unknown_gains(arm: MovingArm, motions: Motions) -> None:
@@ -53,15 +56,15 @@ def refuse_unknown_gains(arm: MovingArm, motions: Motions) -> None:
         raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
 
 
-def doubts_about(motions: Motions) -> list[Notice]:
+def doubts_about(motions: Motions, arm: MovingArm | None = None) -> list[Notice]:
     """Joints that stand, or move one way only; channels that were cut off, are coarse, or hold no speed.
 
     Raises:
         InputError: none moves, or temperatures are no arm's.
     """
     _refuse_temperatures(motions)
-    at = _at_limits(motions)
-    of_channels = [*_cut_off(motions, at), *_unread(motions, at), *_coarse(motions), *_no_speeds(motions)]
+    ends = rails(motions, arm)
+    of_channels = [*_cut_off(motions, ends), *_unread(motions, ends.at), *_coarse(motions), *_no_speeds(motions)]
     return [*_still_joints(motions), *_one_way(motions), *of_channels]
 
 
@@ -132,29 +135,20 @@ def _one_way(motions: Motions) -> list[Notice]:
     return notices
 
 
-def _at_limits(motions: Motions) -> NDArray[np.bool_]:
-    """(N, m) whether a channel shows the least or the most that it can."""
-    at = np.zeros(motions.effort.shape, dtype=np.bool_)
-    for run in motions.runs:
-        there = motions.run == run
-        least, most = limits(motions.effort[there])
-        at[there] = (motions.effort[there] <= least) | (motions.effort[there] >= most)
-    return at
-
-
-def _cut_off(motions: Motions, at: NDArray[np.bool_]) -> list[Notice]:
+def _cut_off(motions: Motions, found: Rails) -> list[Notice]:
     notices = []
     for j, name in enumerate(channels(motions)):
-        if at[:, j].any():
-            rows = np.flatnonzero(at[:, j])
-            both = dict.fromkeys(f"{end(motions.effort[rows, j]):.4g}" for end in (np.min, np.max))
-            where = f"{' and '.join(both)}, the farthest it goes, in {len(rows)} samples, first in row {rows[0] + 2}"
+        if found.at[:, j].any():
+            rows = np.flatnonzero(found.at[:, j])
+            values = " and ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(found.values[j])))
+            noise = ", with noise on it," if found.noisy[j] else ","
+            where = f"{values}, the farthest it goes{noise} in {len(rows)} samples, first in row {rows[0] + 2}"
             text = (
-                f"{name} stays at {where}: it is cut off there, and what lies beyond is not known. These samples, and "
-                f"what the low-pass mixes with them, take no part in the fit of joint {j + 1}. Record with a wider "
-                "range, or more slowly."
+                f"{name} stays at {where}: it is cut off there, or the drive is at its limit, and what lies beyond is "
+                f"not known. These samples, and what the low-pass mixes with them, take no part in the fit of joint "
+                f"{j + 1}. Record with a wider range, more slowly, or with less load."
             )
-            notices.append(Notice("cut off", text))
+            notices.append(Notice(CUT_OFF, text))
     return notices
 
 

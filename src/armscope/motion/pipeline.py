@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import COARSE, check_motions, refuse_few, runs_in_motion, too_short
+from armscope.motion.check import COARSE, CUT_OFF, check_motions, refuse_few, runs_in_motion, too_short
 from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
@@ -20,7 +20,6 @@ from armscope.motion.fitting.ringing import ringing
 from armscope.motion.fitting.rows import MotionRows, build_rows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import model_of, select_causes
-from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.fitting.torque_delay import values_of
 from armscope.motion.fitting.with_changes import with_changes
 from armscope.motion.library.changes_catalogue import CHANGES
@@ -31,22 +30,22 @@ from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_lin
 from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation
+from armscope.motion.samples.rails import rails
 from armscope.motion.samples.spikes import without_spikes
-from armscope.motion.samples.timing import Stretch, gaps, limits, mended, stretches
+from armscope.motion.samples.timing import Stretch, gaps, mended, stretches
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.samples.unread import unread
 from armscope.motion.summary.entering import Entered, as_entered
+from armscope.motion.summary.harming import without_what_harms
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
+    Fold,
     HeldOutTorque,
     errors_by_run,
-    folds,
-    held_out_in_words,
+    held_out_parts,
     held_out_torques,
     measure,
-    own_fold,
     that_others_tell,
-    waterfall,
 )
 from armscope.motion.summary.identifiable import identifiable, little_excited
 from armscope.motion.summary.intervals import Sureness, covariance_of, level_told
@@ -64,8 +63,10 @@ from armscope.motion.summary.late_friction import told_late
 from armscope.motion.summary.left_over import left_over
 from armscope.motion.summary.likeliest import likeliest_in_words
 from armscope.motion.summary.link_weights import rather_all_links, told_links
+from armscope.motion.summary.names_of_masses import share_of_masses
 from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
+from armscope.motion.summary.step_by_step import waterfall
 from armscope.motion.summary.tenable import tenable
 from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
@@ -175,25 +176,31 @@ def diagnose_motion(
     selected = select_causes(layout, train, how, runs, weighing, replace(first.model, turning=turning.late))
     selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
     selected, sure = told_links(selected, _carried(motions))
-    layout = selected.rows.layout
-    notices += [*told, *gaps(motions), *little_excited(selected), *level_told(layout)]
-    notices += [*told_gains(selected), *load_or_link(selected)]
     progress("measuring on motion that took no part", 0.75)
-    apart = build_rows(layout, test, how, model_of(selected)) if test else None
-    verdict, held, entered = _judged(selected, sure, apart, settings)
+    apart = build_rows(selected.rows.layout, test, how, model_of(selected)) if test else None
+    parts, what = held_out_parts(selected, apart, settings.held_out)
+    selected, sure = without_what_harms(selected, sure, parts, _carried(motions))
+    notices += [*told, *gaps(motions), *_of_the_selection(selected)]
+    verdict, held, entered = _judged(selected, sure, parts, what)
     twists = judged_twists(selected, seen, train, how)
     verdict = with_links(verdict, [twist.side for twist in twists])
+    progress("done", 1.0)
     verdict = replace(
         verdict,
         headline=_as_far_as_recorded(verdict, notices),
         preparation=how.words + pauses_in_words(selected.rows.pauses),
-        notices=(*notices, *told_late(selected, sure), *verdict.notices),
+        notices=(*notices, *verdict.notices, *told_late(selected, sure)),
         samples=len(motions),
         runs=runs,
         settings=asdict(settings),
     )
-    progress("done", 1.0)
     return MotionDiagnosis(arm, verdict, selected, sure, apart, held, how, entered, twists)
+
+
+def _of_the_selection(selected: SelectedCauses) -> list[Notice]:
+    """What is said beside the names: how little the motion tells, of gains, and of a stated load."""
+    of_gains = [*level_told(selected.rows.layout), *told_gains(selected)]
+    return [*little_excited(selected), *of_gains, *load_or_link(selected)]
 
 
 def _refuse_unknown(runs: Sequence[str], motions: Motions) -> None:
@@ -215,8 +222,8 @@ def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) ->
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
-    """The headline; where nothing is missing, with gains that say so, and how coarsely the torque was recorded."""
-    kinds = (COARSE, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
+    """The headline; where nothing is missing, with gains that say so, and how coarsely and far torque is recorded."""
+    kinds = (COARSE, CUT_OFF, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
     return " ".join([verdict.headline, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
@@ -233,15 +240,13 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
         raise short
     train: list[Stretch] = []
     test: list[Stretch] = []
-    ends = {run: limits(motions.effort[motions.run == run]) for run in motions.runs}
-    idle = unread(motions.run, motions.time, motions.q, motions.effort)
+    idle = unread(motions.run, motions.time, motions.q, motions.effort) | rails(motions, arm).at
     for stretch in stretches(motions):
         if len(stretch) > FILTER.shortest_s * stretch.rate:
-            cut = (stretch.effort <= ends[stretch.run][0]) | (stretch.effort >= ends[stretch.run][1])
             own = motions.run == stretch.run
             at = np.searchsorted(motions.time[own], stretch.time).clip(0, np.count_nonzero(own) - 1)
-            cut |= idle[own][at]
-            as_torque = replace(stretch, effort=torque_of(arm, stretch.effort, motions.kind), cut=cut)
+            effort = torque_of(arm, stretch.effort, motions.kind)
+            as_torque = replace(stretch, effort=effort, cut=idle[own][at])
             (test if stretch.run in held_out else train).append(as_torque)
     if not train and test:
         rule = "a run at least takes part in the fit"
@@ -250,13 +255,8 @@ def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[
 
 
 def _judged(
-    selected: SelectedCauses, sure: Sureness, test: MotionRows | None, settings: MotionSettings
+    selected: SelectedCauses, sure: Sureness, parts: list[Fold], what: str
 ) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[Entered, ...]]:
-    if test is None:
-        parts = folds(selected)
-        what = held_out_in_words(parts)
-    else:
-        parts, what = [own_fold(selected, test)], "runs " + ", ".join(settings.held_out)
     held = held_out_torques(parts)
     by_run = errors_by_run(held)
     parts, held, alone = that_others_tell(selected, parts, held)
@@ -268,7 +268,7 @@ def _judged(
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = left_over(selected)
     left = unexplained(found, lasting)
-    off = _masses_off(selected)
+    off = share_of_masses(selected, selected.best)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
     found = apart_where_useless(found, errors)
     answer, mismatch = answer_of(found, left, errors)
@@ -292,9 +292,3 @@ def _judged(
         runs=(),
     )
     return verdict, held, as_entered(selected, parts, order)
-
-
-def _masses_off(selected: SelectedCauses) -> float:
-    """Share of a link's mass, and so on, within which masses are off without a name."""
-    sizes = zip(selected.space.families, selected.best.background, strict=True)
-    return max(float(family.label(size)) for family, size in sizes if family.name in OF_MASSES)

@@ -66,6 +66,10 @@ def test_masses_that_help_hardly_leave_nothing_missing() -> None:
     errors = HeldOutErrors(0.02, 0.019, 0.019, masses=0.003)
     assert answer_of([], UnexplainedTorque(False), errors) == ("nothing missing", False)
     assert headline([], errors).startswith("Nothing is missing")
+    assert answer_of([], UnexplainedTorque(False), replace(errors, by_masses=0.13)) == ("nothing missing", False)
+    part = replace(errors, masses=0.03, by_masses=0.13)
+    assert answer_of([], UnexplainedTorque(False), part) == ("cannot tell", True)
+    assert headline([], part).startswith("Masses of the links are not as stated")
     much = replace(errors, named=0.01)
     assert answer_of([], UnexplainedTorque(False), much) == ("cannot tell", True)
 

@@ -17,6 +17,7 @@ from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.samples.timing import stretches
 from armscope.motion.summary import tenable as judging
+from armscope.motion.summary.names_of_masses import NameOfMasses
 from armscope.motion.summary.tenable import held_out_gains, samples_near_rest, tenable
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
 
@@ -98,6 +99,7 @@ def test_a_name_of_masses_that_is_hardly_likelier_than_none_goes_and_nothing_tak
     both = dataclasses.replace(
         stands, best=Search.on(stands.problem).evaluated([*stands.best.chosen, more], stands.best)
     )
+    monkeypatch.setattr(judging, "far_off", lambda at, best: False)  # masses near the stated ask for no name at all
     for odds, kept in ((3.1, True), (2.9, False)):
         monkeypatch.setattr(judging, "odds_of_name", lambda at, number, told=odds: told)
         found = judging._told_apart(both, 200.0)
@@ -118,7 +120,7 @@ def test_another_name_of_masses_takes_the_place_of_one_that_goes_if_it_is_likely
         return dataclasses.replace(at, best=Search.on(at.problem).evaluated([*at.best.chosen, more], at.best))
 
     monkeypatch.setattr(judging, "odds_of_name", lambda at, number: 1.0 if number == mass else 9.0)
-    monkeypatch.setattr(judging, "likeliest_name", lambda at, gone: (beside(at, inertia), inertia, nats))
+    monkeypatch.setattr(judging, "likeliest_name", lambda at, gone: NameOfMasses(beside(at, inertia), inertia, nats))
     monkeypatch.setattr(judging, "_untenable", lambda at, rate: frozenset(untenable))
     found = judging._told_apart(beside(stands, mass), 200.0)
     assert mass not in found.best.candidates

@@ -15,7 +15,8 @@ from armscope.motion.fitting.consistency import PathAgreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
 from armscope.motion.summary import tenable
-from armscope.motion.summary.unnamed_masses import all_held_alike, likeliest_name, odds_of_name, off_without_a_name
+from armscope.motion.summary.names_of_masses import likeliest_name
+from armscope.motion.summary.unnamed_masses import all_held_alike, odds_of_name, off_without_a_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 from tests.motion.moving import ROBOT, moved, robot
 from tests.motion.summary.test_tenable import STATED
@@ -127,4 +128,4 @@ def test_a_link_far_off_without_a_name_is_fitted_as_far_off_as_it_is() -> None:
     # asked once more, the name competes with one share for all links
     found = likeliest_name(unnamed)
     assert found is not None
-    assert found[1] == inertia
+    assert found.number == inertia

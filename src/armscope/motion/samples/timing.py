@@ -53,19 +53,6 @@ class Stretch:
         return np.asarray(before[np.minimum(rows + by + 1, samples)] > before[np.maximum(rows - by, 0)])
 
 
-def limits(effort: Array) -> tuple[Array, Array]:
-    """(m,) least and largest effort that channels (N, m) show where they were cut off; without end where they were not.
-
-    Noise repeats no value: one that a channel keeps for several samples in a row, and never exceeds, is its limit. Not
-    so of a channel in coarse steps, which keeps any value.
-    """
-    several, found, fine = np.ones(READING.at_the_limit), [], _steps(effort) >= READING.fine
-    for limit, end in ((effort.min(axis=0), -np.inf), (effort.max(axis=0), np.inf)):
-        held = [np.convolve(at, several, "valid").max() == len(several) for at in (effort == limit).T]
-        found.append(np.where(held & fine, limit, end))
-    return found[0], found[1]
-
-
 def _steps(effort: Array) -> Array:
     """(m,) into how many of its smallest steps each channel's range parts."""
     steps = np.abs(np.diff(effort, axis=0))

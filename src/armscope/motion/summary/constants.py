@@ -35,6 +35,11 @@ class NamingRules(Constants):
         "shares, beyond those of all links, by which inertial parameters of links with a name may be off without it",
         "judgement: a link that is another one than stated",
     )
+    far_off: float = constant(
+        10.0,
+        "times the least share by which masses are off, from which one number that says as much is rather told",
+        "judgement: 3 %, more than a drawing and a scale leave",
+    )
     beyond_gains: float = constant(
         2.5,
         "times its stated uncertainty that a drive's gain must be off to have a name",

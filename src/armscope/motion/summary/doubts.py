@@ -13,6 +13,7 @@ from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
+from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, Parameter
 from armscope.verdict.wording import effect_in_words
@@ -54,6 +55,15 @@ def not_told_apart(alternatives: Sequence[Alternative]) -> str:
         return ""
     names = enumerated([effect_in_words(each.effect, each.location) for each in alike], "or")
     return f"These rows fit {names} as well: find out which it is before anything is changed."
+
+
+def as_likely_without(selected: SelectedCauses, number: int) -> str:
+    """That masses all over the arm fit as well as a name of masses, in a sentence; empty where the name is likelier."""
+    if not is_of_masses(selected.rows.layout.placed[number]):
+        return ""
+    if odds_of_name(selected, number) >= INDISTINGUISHABLE_NATS:
+        return ""
+    return "Links that are all off a little fit about as well: weigh what it names before anything is changed."
 
 
 def may_be_nothing(parameters: Sequence[Parameter]) -> bool:

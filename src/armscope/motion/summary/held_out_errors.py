@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from armscope.core.numerals import rounded
-from armscope.motion.summary.constants import HELD_OUT
+from armscope.motion.constants import PRIOR
+from armscope.motion.summary.constants import HELD_OUT, NAMING
 
 ON_HELD_OUT = "On held-out motion"
 """How the sentence of a headline begins that says how well torque is met."""
@@ -36,8 +38,14 @@ class HeldOutErrors:
 
     @property
     def only_unnamed(self) -> bool:
-        """Whether masses that are off without a name help: what else is free of every name helps hardly at all."""
-        return self.masses > 0 and self.named < HELD_OUT.clearly_better * self.without
+        """Whether masses that are off without a name help: what else is free of every name helps hardly at all.
+
+        Where these add what anybody would look for, and are off by more than a drawing and a scale leave, any help will
+        do: they may matter at one joint of three.
+        """
+        matter = self.by_masses >= HELD_OUT.little_share and self.masses >= NAMING.far_off * PRIOR.inertial_shares[1]
+        least = HELD_OUT.any_better if matter else HELD_OUT.clearly_better
+        return self.masses > 0 and self.named < least * self.without
 
     @property
     def foretells_nothing(self) -> bool:
@@ -60,10 +68,17 @@ class HeldOutErrors:
 
     def words(self) -> str:
         """How well torque is met, in a sentence."""
-        without, anew, named = (f"{rounded(100 * error)} %" for error in (self.without, self.anew, self.named))
-        if not self.worse:
-            return f"{ON_HELD_OUT} the torque is met to {anew} instead of {without}."
+        digits = 2 if _told_by(2, self.named) != _told_by(2, self.without) else 3
+        without, anew, named = (_told_by(digits, error) for error in (self.without, self.anew, self.named))
         if named == without == anew:
-            return f"{ON_HELD_OUT} the torque is met to {without} by friction and rotors alone."
+            return f"{ON_HELD_OUT} the torque is met to {_told_by(2, self.without)} by friction and rotors alone."
+        if named == anew:
+            return f"{ON_HELD_OUT} the torque is met to {named} instead of {without}."
         told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
         return f"{told}; to {anew} where the causes, too, are found without it."
+
+
+def _told_by(digits: int, error: float) -> str:
+    if digits == 2 or error <= 0:
+        return f"{rounded(100 * error)} %"
+    return f"{100 * error:.{max(digits - 1 - math.floor(math.log10(100 * error)), 0)}f} %"

@@ -9,9 +9,8 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
-from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.problem import Problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.rows import MotionRows
@@ -23,7 +22,7 @@ from armscope.motion.library.changes import gate_of
 from armscope.motion.library.changes_catalogue import CHANGES
 from armscope.motion.library.for_a_while import there
 from armscope.motion.library.warmth import is_while_running
-from armscope.motion.verdict import HeldOutMotion, Step, relative
+from armscope.motion.verdict import HeldOutMotion, relative
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +55,23 @@ def folds(selected: SelectedCauses) -> list[Fold]:
         which = np.flatnonzero(np.isin(selected.block, held))
         made.append(Fold(selected.rows, which, problem, found))
     return made
+
+
+def held_out_parts(selected: SelectedCauses, test: MotionRows | None, runs: Sequence[str]) -> tuple[list[Fold], str]:
+    """What takes no part.
+
+    Args:
+        selected: the selection.
+        test: rows of the runs that were kept out; None holds out what was fitted, part by part.
+        runs: names of those.
+
+    Returns:
+        It, and in words which motion that is.
+    """
+    if test is None:
+        parts = folds(selected)
+        return parts, held_out_in_words(parts)
+    return [own_fold(selected, test)], "runs " + ", ".join(runs)
 
 
 def held_out_in_words(parts: Sequence[Fold]) -> str:
@@ -172,7 +188,7 @@ def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
     for fold in parts:
         stated = fold.rows.nominal[fold.which]
         friction = evaluate(fold.problem, (), of_joints(fold.problem.space, fold.found.background), fold.found.noise)
-        background, model = (stated + _modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
+        background, model = (stated + modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
         made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
     return tuple(made)
 
@@ -213,59 +229,9 @@ def errors_by_run(held: Sequence[HeldOutTorque]) -> dict[str, float]:
     return errors
 
 
-def _modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
+def modelled(fold: Fold, hypothesis: Hypothesis) -> Array:
+    """(K, m) torque beyond the stated model's that a hypothesis gives the rows of a fold."""
     return fold.rows.modelled(coefficients_of(fold.problem, hypothesis), fold.which)
-
-
-def waterfall(
-    selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[int], labels: Sequence[str]
-) -> tuple[Step, ...]:
-    """Errors with one cause after the other, each fitted again.
-
-    Args:
-        selected: the selection.
-        parts: what is held out.
-        order: candidates in the order in which they come in.
-        labels: their names.
-
-    Returns:
-        Nothing but friction; masses held near the stated ones; then each cause.
-    """
-    best = selected.best
-    by_candidate = {effect.candidate: effect for effect in best.chosen}
-    states: list[tuple[str, tuple[int, ...], bool]] = [
-        ("friction and rotors", (), False),
-        (_held_near(selected), (), True),
-    ]
-    states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
-    steps = []
-    for label, members, masses in states:
-        background = best.background if masses else of_joints(selected.space, best.background)
-        chosen = tuple(by_candidate[c] for c in members)
-
-        whole = Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
-        fitted = relative(*_errors(whole, chosen, background))
-        held = [_errors(fold, chosen, background) for fold in parts]
-        steps.append(
-            Step(label, fitted, relative(np.concatenate([e for e, _ in held]), np.concatenate([t for _, t in held])))
-        )
-    return tuple(steps)
-
-
-def _held_near(selected: SelectedCauses) -> str:
-    """What takes part without a name, in words."""
-    layout, used = selected.rows.layout, selected.best.columns
-    gains = bool(np.isin(layout.gains, used).any())
-    masses = bool(np.isin(layout.masses, used).any()) or not gains
-    return f"{' and '.join(['masses'] * masses + [layout.of_gains] * gains)} near the stated"
-
-
-def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
-    """(residuals, torque) of the fold's rows with causes fitted on its sums."""
-    fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
-    torque = fold.rows.torque[fold.which]
-    left = torque - fold.rows.nominal[fold.which] - _modelled(fold, fitted)
-    return missed_torque(fold.rows, fold.which, left), moving_torque(fold.rows, fold.which, torque)
 
 
 def moving_torque(rows: MotionRows, which: Indices, torque: Array) -> Array:

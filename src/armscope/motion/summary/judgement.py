@@ -18,7 +18,7 @@ from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.constants import HELD_OUT
-from armscope.motion.summary.doubts import doubt_of, not_told_apart
+from armscope.motion.summary.doubts import as_likely_without, doubt_of, not_told_apart
 from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
@@ -64,6 +64,11 @@ def _found(
     joint = int(np.argmax(relative))
     parameters = cause_parameters(selected, number, sure.factor)
     alternatives = _alternatives(selected, sure, number)
+    doubts = (
+        doubt_of(selected, number, agreed, parameters),
+        not_told_apart(alternatives),
+        as_likely_without(selected, number),
+    )
     return FoundCause(
         effect=placed.cause.name,
         location=placed.location,
@@ -83,7 +88,7 @@ def _found(
         physics=placed.cause.physics,
         confirm=(placed.common and placed.cause.confirm_common) or placed.cause.confirm,
         cure=cure(placed, parameters, layout.arm, layout.with_gains),
-        doubt=f"{doubt_of(selected, number, agreed, parameters)} {not_told_apart(alternatives)}".strip(),
+        doubt=" ".join(filter(None, doubts)),
     )
 
 
@@ -208,7 +213,7 @@ def headline(
     if not found and lasting:
         return f"{beyond}No cause of the library explains it. {errors.words()}"
     if not found:
-        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.anew)} %."
+        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.named)} %."
         if errors.foretells_nothing:
             return (
                 "Cannot tell what is missing: the model foretells these torques no better than none at all, and no "

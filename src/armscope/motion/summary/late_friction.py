@@ -48,8 +48,7 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
     text = (
         f"Friction changes sides later than the speed: {', '.join(told)} (below zero: sooner). It clings over a way, "
         "or torque is recorded so late (a delay); where friction is most of a joint's torque, motion does not tell "
-        "which. Turn the joint to and fro at two speeds: friction that clings comes back over the same angle, a delay "
-        "after the same time."
+        "which: turn it to and fro at two speeds."
     )
     return [Notice("late friction", text)]
 

@@ -1,11 +1,12 @@
-"""The name of masses that comes next where none is sure enough to be told as one."""
+"""The names of masses that come next where none is sure enough to be told as one."""
 
 from __future__ import annotations
 
 from armscope.core.numerals import size_of
+from armscope.core.words import enumerated
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.summary.judgement import title
-from armscope.motion.summary.unnamed_masses import likeliest_name
+from armscope.motion.summary.names_of_masses import NameOfMasses, likely_names
 from armscope.verdict.counting import odds_in_words
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -17,16 +18,24 @@ def likeliest_in_words(selected: SelectedCauses) -> str:
         selected: the selection.
 
     Returns:
-        A sentence with a space behind it; nothing where no name is likelier than none.
+        A sentence with a space behind it; nothing where masses without a name are likelier than any.
     """
-    if (likeliest := likeliest_name(selected)) is None:
+    names = likely_names(selected)
+    if not names:
         return ""
-    found, number, nats = likeliest
-    layout = found.rows.layout
-    placed, values = layout.placed[number], found.coefficients[layout.columns[number]]
+    told, why = [_in_words(each) for each in names], _not_told(names[0].nats)
+    if len(told) == 1:
+        return f"The likeliest name, {why}: {told[0]}. "
+    return f"The likeliest names, of which these rows tell none from the next ({why}): {enumerated(told, 'or')}. "
+
+
+def _in_words(name: NameOfMasses) -> str:
+    """A name with its numbers."""
+    layout = name.selected.rows.layout
+    placed, values = layout.placed[name.number], name.selected.coefficients[layout.columns[name.number]]
     told = zip(placed.parameters, values, strict=True)
-    sizes = ", ".join(f"{name.replace('_', ' ')} {size_of(value, unit, sign=True)}" for (name, unit), value in told)
-    return f"The likeliest name, {_not_told(nats)}: {title(placed)}, {sizes}. "
+    sizes = ", ".join(f"{each.replace('_', ' ')} {size_of(value, unit, sign=True)}" for (each, unit), value in told)
+    return f"{title(placed)}, {sizes}"
 
 
 def _not_told(nats: float) -> str:
@@ -38,5 +47,5 @@ def _not_told(nats: float) -> str:
     if nats >= INDISTINGUISHABLE_NATS:
         odds = f"{odds_in_words(nats)} at its own link"
         return f"not told as one because all links and all motion together do without it ({odds})"
-    odds = odds_in_words(nats) if nats > 1 else "hardly likelier than none"
+    odds = odds_in_words(nats) if nats > 1 else "hardly likelier than none" if nats > 0 else "no likelier than none"
     return f"too unsure to be told as one ({odds})"

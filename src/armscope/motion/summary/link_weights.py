@@ -19,7 +19,7 @@ from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain
 from armscope.motion.library import catalogue
-from armscope.motion.summary.doubts import determined
+from armscope.motion.summary.doubts import as_likely_without, determined, may_be_nothing
 from armscope.motion.summary.intervals import Sureness, sureness
 from armscope.motion.summary.judgement import cause_parameters
 from armscope.motion.summary.no_bodies import no_link
@@ -96,7 +96,7 @@ def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[
         It, and how far it can be trusted. A link whose number is not determined, by gains that nobody has measured
         say, or that would weigh less than nothing, has no name.
     """
-    selected = with_gains_that_stand_out(selected, carried)
+    selected = _without_what_may_be_nothing(with_gains_that_stand_out(selected, carried), carried)
     named = with_links_that_weigh(selected)
     sure = sureness(named, carried)
     added = named.best.candidates - selected.best.candidates
@@ -106,3 +106,14 @@ def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[
     kept = tuple(effect for effect in named.best.chosen if effect.candidate not in loose)
     named = replace(named, best=Search.on(named.problem).evaluated(kept, named.best))
     return named, sureness(named, carried)
+
+
+def _without_what_may_be_nothing(selected: SelectedCauses, carried: Mapping[str, float]) -> SelectedCauses:
+    """The selection without names of masses that are no likelier than none and whose intervals hold zero."""
+    unsure = [n for n in selected.best.candidates if as_likely_without(selected, n)]
+    factor = sureness(selected, carried).factor if unsure else None
+    nothing = [n for n in unsure if factor is not None and may_be_nothing(cause_parameters(selected, n, factor))]
+    if not nothing:
+        return selected
+    search = Search.on(selected.problem)
+    return at_own_gain(replace(selected, best=search.with_best_sizes(search.without(selected.best, nothing))))

@@ -34,11 +34,13 @@ def listed_rivals(
     nearest: dict[tuple[str, str], tuple[float, Candidate, float]] = {}
     for other in rivals:
         rival = search.space.candidates[other.chosen[-1].candidate]
-        gap = best.log_posterior - other.log_posterior
+        gap = max(
+            best.log_posterior - other.log_posterior, 0.0
+        )  # what is named for its plausibility may fit a bit worse
         if rival.key in taken or rival.key == candidate.key or gap > limit:
             continue
         if rival.key not in nearest or gap < nearest[rival.key][0]:
-            nearest[rival.key] = (float(gap), rival, _apart(best, other, candidate, rival))
+            nearest[rival.key] = (gap, rival, _apart(best, other, candidate, rival))
     listed = [Alternative(c.kind, c.location, c.family, gap, c.driver, by) for gap, c, by in nearest.values()]
     listed += [each for each in more if each.evidence_gap_nats < limit]
     return tuple(sorted(listed, key=lambda each: each.evidence_gap_nats)[: TELLING.listed])

@@ -8,7 +8,7 @@ the name is wrong.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -35,8 +35,10 @@ from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.in_proportion import rather_in_proportion
+from armscope.motion.summary.names_of_masses import NameOfMasses, far_off, likeliest_name, likely_names
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
-from armscope.motion.summary.unnamed_masses import is_of_masses, likeliest_name, odds_of_name, off_without_a_name
+from armscope.motion.summary.rather_carried import rather_carried
+from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name, off_without_a_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
@@ -64,7 +66,9 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
         alone = _alone(again, kept)
         others = number + 1 < CONSISTENCY.judged and _foretells_more(again, alone.best)
         selected = at_own_gain(again if others else alone)
-    return _told_apart(rather_in_proportion(selected), rate)
+    told = _told_apart(rather_in_proportion(selected), rate)
+    carried = rather_carried(told)
+    return told if carried is told or _untenable(at_own_gain(carried), rate) else at_own_gain(carried)
 
 
 def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
@@ -253,18 +257,31 @@ def _without_the_name(selected: SelectedCauses, number: int) -> SelectedCauses:
 def _told_apart(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """The selection without names of masses that are hardly likelier than none, the least of them first.
 
-    Another name takes the place of one that goes if it is likelier than none and can stand. Not of what is there in
-    some runs only: no link is otherwise there.
+    Another name takes the place of one that goes if it is likelier than none and can stand; of masses that are far off
+    without any name, one that says all of it. Not of what is there in some runs only: no link is otherwise there.
     """
     gone: set[int] = set()
     while True:
         masses = [n for n in selected.best.candidates if is_of_masses(selected.rows.layout.placed[n])]
-        odds, least = min(((odds_of_name(selected, number), number) for number in masses), default=(np.inf, 0))
-        if odds >= INDISTINGUISHABLE_NATS:
-            return selected
+        names = [NameOfMasses(selected, number, odds_of_name(selected, number)) for number in masses]
+        unsure = [each for each in names if not each.is_told]
+        if not unsure:
+            return selected if masses else _all_by_one_name(selected, gone, rate)
+        least = min(unsure, key=lambda each: each.nats).number
         gone.add(least)
         selected = at_own_gain(_without_the_name(selected, least))
         another = likeliest_name(selected, gone)
-        if another is not None and another[2] >= INDISTINGUISHABLE_NATS:
-            instead = at_own_gain(another[0])
+        if another is not None and another.is_told:
+            instead = at_own_gain(another.selected)
             selected = selected if _untenable(instead, rate) else instead
+
+
+def _all_by_one_name(selected: SelectedCauses, gone: Collection[int], rate: float) -> SelectedCauses:
+    """The selection with the one name that says what masses far off all over the arm say; itself where none does."""
+    if not far_off(selected, selected.best):
+        return selected
+    for name in likely_names(selected):
+        if name.number not in gone and name.is_told:
+            instead = at_own_gain(name.selected)
+            return selected if _untenable(instead, rate) else instead
+    return selected

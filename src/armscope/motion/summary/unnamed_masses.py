@@ -9,17 +9,15 @@ of its links' own does, of which evidence chooses the size as it does of the oth
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from armscope.core.types import Indices
-from armscope.inference.edits import by_posterior
 from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes, ToleranceFamily
 from armscope.inference.problem import Problem, SelectedEffect
-from armscope.inference.search import Search
 from armscope.motion.constants import LIBRARY, PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.causes import PlacedCause
@@ -88,34 +86,6 @@ def _with_larger_share(selected: SelectedCauses, masses: int, own: Indices, size
 def is_of_masses(placed: PlacedCause) -> bool:
     """Whether a cause is masses that are other than stated in all runs, as the background of masses has them, too."""
     return placed.inertial is not None and not placed.runs
-
-
-def likeliest_name(selected: SelectedCauses, without: Collection[int] = ()) -> tuple[SelectedCauses, int, float] | None:
-    """The name of masses that says most of what has none there, where it is at least likelier than none.
-
-    Args:
-        selected: a selection.
-        without: numbers of names that are not asked for.
-
-    Returns:
-        The selection with it, its number, and by how many nats it is likelier than none; None where there is none.
-    """
-    selected = all_held_alike(selected)
-    search, placed = Search.on(selected.problem), selected.rows.layout.placed
-    others = [n for n, cause in enumerate(placed) if n in without or not is_of_masses(cause)]
-    families = [family.name for family in selected.space.families]
-    masses, weights = families.index("masses"), families.index("link masses")
-    as_stated = search.with_background(selected.best, weights, 0)
-    both = (selected.best, as_stated) if selected.best.background[weights] else (selected.best,)
-    smaller = [search.with_background(each, masses, n) for each in both for n in range(each.background[masses] + 1)]
-    named = [search.with_best_sizes(each) for start in smaller for each in search.additions(start, 1, others)]
-    if not named:
-        return None
-    best = max(named, key=by_posterior)
-    number = best.chosen[-1].candidate
-    found = replace(selected, best=best)
-    nats = odds_of_name(found, number)
-    return (found, number, nats) if nats > 0 else None
 
 
 def all_held_alike(selected: SelectedCauses) -> SelectedCauses:

@@ -100,7 +100,7 @@ def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool
             ShownAlternative(
                 effect_in_words(other.effect, other.location) + _followed(other),
                 gap_in_words(other),
-                other.discriminability_nats < INDISTINGUISHABLE_NATS,
+                abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS,
             )
             for other in effect.alternatives
         ),
@@ -237,8 +237,10 @@ def how_specific(effect: FoundEffect) -> str:
 def gap_in_words(other: Alternative) -> str:
     """How much evidence it costs to name an alternative instead, and whether only its size does."""
     gap = other.evidence_gap_nats
+    if gap <= -INDISTINGUISHABLE_NATS:
+        return f"fits {-gap:.1f} nats better here, but was struck out: implausible, or not borne out elsewhere"
     if gap < 0:
-        return f"{-gap:.1f} nats better"
+        return "fits as well"
     alike = other.discriminability_nats < INDISTINGUISHABLE_NATS <= gap
     told = f"{gap:.1f} nats worse{', but only because of its prior' if alike else ''}"
     return f"{told}; held-out rows do not exclude it" if other.excluded is False else told

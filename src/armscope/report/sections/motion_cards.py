@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.clauses import rms_of
+from armscope.motion.summary.doubts import may_be_nothing
 from armscope.motion.summary.words import clause
 from armscope.motion.verdict import FoundCause
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
@@ -59,12 +60,12 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
         physics=cause.physics,
         confirm=cause.confirm,
         cure=cause.cure.replace("`", ""),
-        evidence=f"{capitalised(evidence_in_words(cause.evidence_nats))} ({cause.evidence_nats:.0f} nats).",
+        evidence=_evidence(cause),
         alternatives=tuple(
             ShownAlternative(
                 _named(other),
                 gap_in_words(other),
-                other.discriminability_nats < INDISTINGUISHABLE_NATS,
+                abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS,
             )
             for other in cause.alternatives
         ),
@@ -94,3 +95,11 @@ def _named(other: Alternative) -> str:
     follows = f" that follows the {other.driver}" if other.nameless and other.driver else ""
     name = _NAMELESS.get(other.effect, "an unknown torque") if other.nameless else other.effect.replace("_", " ")
     return f"{name} at {other.location}{follows}" if other.location != "payload" else name
+
+
+def _evidence(cause: FoundCause) -> str:
+    """How sure a cause is; of one whose interval holds zero, that what is sure is that something is there."""
+    nats = f"{cause.evidence_nats:.0f} nats"
+    if may_be_nothing(cause.parameters):
+        return f"These torques ask for something here ({nats}); how large it is, and which way it goes, is open."
+    return f"{capitalised(evidence_in_words(cause.evidence_nats))} ({nats})."
