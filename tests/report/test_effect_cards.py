@@ -87,7 +87,7 @@ def test_a_card_tells_the_share_of_what_calibration_leaves_where_geometry_hides_
     assert card(replace(play, share_after_calibration=0.6), 1).of_rest == "60 % of what calibration leaves"
     case = verdicts.case(effects=(replace(play, share_after_calibration=0.6),))
     (place,) = (place for place in locations._ranking(case.verdict) if place.link)
-    assert place.told == "1.0 %, 60 % of what calibration leaves"
+    assert (place.told, place.of_rest) == ("1.0 %", "60 % of what calibration leaves")
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,10 @@ LEAST_AGAINST = 5e-4
 
 @dataclass(frozen=True)
 class Place:
-    """A line of the ranking; a cause has a link to its card, what stands apart from the story is quiet."""
+    """A line of the ranking; a cause has a link to its card, what stands apart from the story is quiet.
+
+    Of the rest is what it is of what calibration leaves, in words, where that is told.
+    """
 
     name: str
     link: str
@@ -31,8 +34,8 @@ class Place:
 
     @property
     def told(self) -> str:
-        """The share in words; what it is of what calibration leaves, where that is told."""
-        return f"{percent(self.share)}{', ' * bool(self.of_rest)}{self.of_rest}"
+        """The share in words."""
+        return percent(self.share)
 
     @property
     def width(self) -> float:
