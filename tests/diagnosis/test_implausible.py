@@ -62,7 +62,23 @@ def test_a_value_beyond_what_arms_show_is_no_name_where_the_tool_misses_by_less(
     (part,) = fit.model.parts
     # as a fit leaves it beside gears' waves that are as large: their sum is what the rows hold
     told = replace(fit, model=replace(fit.model, parts=(Part(part.placed, np.array([fitted_ratio])),)))
-    assert _taken_back(loop.problem, loop.best, told) == ([number] if is_none else [])
+    assert _taken_back(loop.problem, loop.space, loop.best, told) == ([number] if is_none else [])
+
+
+def test_a_row_whose_length_another_row_tells_is_asked_by_the_terms_that_it_keeps() -> None:
+    """Of parallel axes d is told once, so that a fitted row may have a term less than its candidate: that crashed."""
+    loop, number = named({("link_geometry", "link 3"): [0.02, 0.0, 0.0]}, nested=False)
+    fit = loop._fitted(loop.best)
+    (part,) = fit.model.parts
+    d = next(term for term in part.placed.terms if term.name == "d")
+    less = part.placed.without({d})
+    assert less is not None
+    kept = np.array([term is not d for term in part.placed.terms])
+    told = replace(fit, model=replace(fit.model, parts=(Part(less, part.values[kept]),)))
+    assert Part(less, part.values[kept]).implausible
+    assert _taken_back(loop.problem, loop.space, loop.best, told) == []
+    far = replace(told, model=replace(told.model, parts=(Part(less, 50 * part.values[kept]),)))
+    assert _taken_back(loop.problem, loop.space, loop.best, far) == [number]
 
 
 @pytest.mark.parametrize(("joint", "gives_way"), [("joint 6", True), ("joint 3", False)])

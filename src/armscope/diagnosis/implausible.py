@@ -41,7 +41,7 @@ def without_implausible(
         while pushing := _pushing(space, hypothesis, fit):
             hypothesis = search.without(hypothesis, pushing)
             fit = refit(hypothesis)
-        untried = [candidate for candidate in _taken_back(problem, hypothesis, fit) if candidate not in tried]
+        untried = [candidate for candidate in _taken_back(problem, space, hypothesis, fit) if candidate not in tried]
         if not untried:
             return hypothesis, fit
         tried.add(untried[0])
@@ -68,14 +68,14 @@ def _pushing(space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int
     return [chosen.candidate for chosen, part in parts if _against_its_load(space, chosen, part, fit)]
 
 
-def _taken_back(problem: Problem, hypothesis: Hypothesis, fit: Refit) -> list[int]:
+def _taken_back(problem: Problem, space: EffectSpace, hypothesis: Hypothesis, fit: Refit) -> list[int]:
     """Candidates of the names that something else may take back: larger than arms show, and than the tool misses.
 
     A link that is 30 mm too long shows at the tool. Where less is seen, other causes may take the rest back, each of
     them as far from any arm that was built: a way to write the rows, and nothing that somebody could find and mend.
     """
     parts = zip(hypothesis.chosen, fit.model.parts, strict=True)
-    return [chosen.candidate for chosen, part in parts if _moves_more(problem, chosen.candidate, part)]
+    return [chosen.candidate for chosen, part in parts if _moves_more(problem, space, part)]
 
 
 def more_plausible(
@@ -119,11 +119,11 @@ def _against_its_load(space: EffectSpace, chosen: SelectedEffect, part: Part, fi
     return pushing < -LOOP.surely_negative * stderr
 
 
-def _moves_more(problem: Problem, candidate: int, part: Part) -> bool:
+def _moves_more(problem: Problem, space: EffectSpace, part: Part) -> bool:
     """Whether values are larger than arms show, and would move the tool by more than it misses."""
     if not part.implausible:
         return False
-    columns = problem.space.candidates[candidate].columns
+    columns = space.layout.of(part.placed)  # a length that another row tells is no term of it
     coefficients = np.zeros(len(problem.scale))
     coefficients[columns] = part.values * problem.scale[columns]
     return projected_rms(problem.equations, problem.space.frames, coefficients) > problem.mismatch
