@@ -133,12 +133,20 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
         return [f"{spelled(len(others))} more at the same place"] if others else []
     if len(places) > WORDS.places:
         return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
-    kinds: dict[str, list[str]] = {}  # "has play (also off: joint 4)" would be read as play of joint 4
+    kinds: dict[str, list[str]] = {"": []}  # "has play (also off: joint 4)" would be read as play of joint 4
     for effect in (each for each in others if each.location in places):
-        kind = "" if effect.effect == told.effect else f"{plain(effect.effect)} at "
-        kinds.setdefault(kind, []).append(effect.location)
-    where = enumerated([kind + places_in_words(list(dict.fromkeys(those))) for kind, those in kinds.items()])
-    return [f"{_ALSO.get(family, 'also')}: {where}"]
+        whole = _of_its_whole_place(effect)
+        kind = "" if whole or effect.effect == told.effect else f"{plain(effect.effect)} at "
+        kinds.setdefault(kind, []).append(whole or effect.location)
+    told_places = ((kind, places_in_words(list(dict.fromkeys(those)))) for kind, those in kinds.items() if those)
+    return [f"{_ALSO.get(family, 'also')}: {enumerated([kind + where for kind, where in told_places])}"]
+
+
+def _of_its_whole_place(effect: FoundEffect) -> str:
+    """ "base" of its compliance, which needs no place besides; "payload error"; "" of what may be at several places."""
+    if not effect.effect.startswith(effect.location):
+        return ""
+    return effect.location if effect.effect == f"{effect.location}_compliance" else plain(effect.effect)
 
 
 def places_in_words(places: Sequence[str]) -> str:
