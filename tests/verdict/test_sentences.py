@@ -158,6 +158,15 @@ def test_a_cause_has_one_pair_of_brackets():
     assert cause_in_words("elastic", [compliance()], everywhere()).endswith("under gravity (all others a little)")
 
 
+@pytest.mark.parametrize(("share", "nats", "leads"), [(0.3, 150.0, True), (0.1, 150.0, False), (0.3, 5.0, False)])
+def test_what_has_a_sure_name_is_told_before_what_may_be_another(share, nats, leads):
+    """Where it is about as much: half of an arm's give had a name, and stood in the brackets of a region."""
+    vague = compliance(named_as="region", title="elastic, around joints 1 and 2", share=0.4, evidence_nats=13.0)
+    said = cause_in_words("elastic", [vague, compliance(location="joint 3", share=share, evidence_nats=nats)])
+    assert said.startswith("joint 3 gives way by") == leads
+    assert said.endswith(f"(also giving way: joint {2 if leads else 3})")
+
+
 def test_a_cause_of_several_places_says_where_the_others_are():
     at = [compliance(), *(compliance(location=place) for place in ("joint 5", "link 3", "joint 4"))]
     assert cause_in_words("elastic", at).endswith("under gravity (also giving way: joints 4 and 5 and link 3)")
