@@ -13,7 +13,7 @@ from armscope.report.sections.effect_cards import card
 from armscope.verdict.effects import Curve, Parameter
 from armscope.verdict.schema import Unexplained
 from armscope.verdict.sentences import exact_phrase
-from armscope.verdict.wording import reach
+from armscope.verdict.wording import Reading, reach, read_parameter
 from tests.report import verdicts
 from tests.report.verdicts import compliance, found
 
@@ -121,6 +121,26 @@ def test_a_tilt_that_may_as_well_be_none_has_no_number_in_a_sentence():
     )
     neither = replace(clear, name="compliance_y", stderr=1.5e-6)
     assert exact_phrase(found("base_compliance", "base", open_, neither)) == "the base tilts under the arm's moment"
+
+
+def test_a_base_that_tilts_about_its_foot_is_told_with_where_that_is():
+    tilt, shift = Parameter("compliance", "rad/(N m)", 1.5e-7, 7e-9), Parameter("shift", "m/(N m)", 1.2e-7, 2e-9)
+    plain = "the base tilts by 0.15 µrad per N m under the arm's moment"
+    assert (
+        exact_phrase(found("base_compliance", "base", tilt, shift)) == f"{plain}, about a point 0.80 m below its origin"
+    )
+    above = replace(shift, value=-shift.value)
+    assert exact_phrase(found("base_compliance", "base", tilt, above)).endswith("0.80 m above its origin")
+    assert exact_phrase(found("base_compliance", "base", tilt, replace(shift, stderr=1e-7))) == plain
+
+
+def test_what_moves_across_with_a_tilt_has_a_number_with_a_unit():
+    shift, out = Parameter("shift", "m/(N m)", 1.17e-7, 2.1e-9), Parameter("run_out", "mm", 0.11, 0.002)
+    assert read_parameter(shift, "base_compliance") == Reading(
+        "its origin moves across by", "0.1170 µm per N m", "0.1129 … 0.1211 µm per N m"
+    )
+    told = read_parameter(out, "axis_wobble")
+    assert (told.label, told.value) == ("moves across, at its origin, by ±", "0.1100 mm")
 
 
 def test_no_place_has_more_than_all_of_the_mismatch():

@@ -25,6 +25,11 @@ def test_a_free_curve_is_told_by_how_far_it_reaches():
     assert told.stderr == pytest.approx(1.2e-5)
 
 
+def test_a_command_in_a_cure_stands_without_the_marks_of_code():
+    wobble = replace(found("axis_wobble", "joint 1"), cure="Let it compute the commands (`armscope compensate`).")
+    assert card(wobble, 1).cure == "Let it compute the commands (armscope compensate)."
+
+
 def test_rivals_too_close_to_tell_apart_are_marked():
     near, far = card(compliance(), 1).alternatives
     assert near.too_close

@@ -82,5 +82,5 @@ def test_where_nothing_else_is_known_no_choice_is_offered() -> None:
     assert doubt
     assert "which" not in doubt.instruction
     assert doubt.instruction.startswith(
-        "Confirm it first: that it is elastic, around joint 2 is sure, its name is not."
+        "Confirm it first: that something gives way under load around joint 2 is sure, its name is not."
     )

@@ -158,6 +158,15 @@ def test_a_cause_has_one_pair_of_brackets():
     assert cause_in_words("elastic", [compliance()], everywhere()).endswith("under gravity (all others a little)")
 
 
+@pytest.mark.parametrize(("share", "nats", "leads"), [(0.3, 150.0, True), (0.1, 150.0, False), (0.3, 5.0, False)])
+def test_what_has_a_sure_name_is_told_before_what_may_be_another(share, nats, leads):
+    """Where it is about as much: half of an arm's give had a name, and stood in the brackets of a region."""
+    vague = compliance(named_as="region", title="elastic, around joints 1 and 2", share=0.4, evidence_nats=13.0)
+    said = cause_in_words("elastic", [vague, compliance(location="joint 3", share=share, evidence_nats=nats)])
+    assert said.startswith("joint 3 gives way by") == leads
+    assert said.endswith(f"(also giving way: joint {2 if leads else 3})")
+
+
 def test_a_cause_of_several_places_says_where_the_others_are():
     at = [compliance(), *(compliance(location=place) for place in ("joint 5", "link 3", "joint 4"))]
     assert cause_in_words("elastic", at).endswith("under gravity (also giving way: joints 4 and 5 and link 3)")
@@ -165,6 +174,15 @@ def test_a_cause_of_several_places_says_where_the_others_are():
     assert cause_in_words("elastic", many).endswith("(also giving way: five more places)")
     assert cause_in_words("elastic", [compliance(), compliance()]).endswith("(one more at the same place)")
     assert "(" not in cause_in_words("elastic", at[:1])
+    base = found("base_compliance", "base", Parameter("compliance", "rad/(N m)", 1e-7, 1e-9))
+    assert cause_in_words("elastic", [*at[:2], base]).endswith("(also giving way: joint 5 and base)")
+    payload = found("payload_error", "payload", Parameter("mass", "kg", 2.0, 0.1))
+    link = found("link_bending", "link 2", Parameter("flexibility", "1/(N m^2)", 1e-7, 1e-9))
+    told = cause_in_words("elastic", [*at[:1], link, base, payload])
+    assert told.endswith("(also giving way: link 2, base and payload error)")
+    tilts = found("bearing_compliance", "joint 4", Parameter("compliance", "rad/(N m)", 1e-7, 1e-9))
+    told = cause_in_words("elastic", [base, tilts, compliance()])
+    assert told.endswith("(also giving way: joint 2 and bearing compliance at joint 4)")
     play = found("backlash", "joint 2", Parameter("gap", "rad", 3e-4, 1e-6))
     wave = found("gear_eccentricity", "joint 4", Parameter("amplitude", "rad", 3e-4, 1e-6))
     told = cause_in_words("transmission", [play, wave])

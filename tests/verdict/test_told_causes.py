@@ -31,6 +31,8 @@ def test_what_calibration_leaves_comes_in_its_own_order() -> None:
 def test_a_share_that_is_the_same_either_way_is_told_once() -> None:
     assert with_share(cause("elastic", 0.8, 0.82), first=True) == "something elastic – 80 % of the squared error"
     assert with_share(cause("elastic", 0.8), first=False) == "something elastic – 80 %"
+    assert with_share(cause("elastic", 0.18, 0.55), first=False) == "something elastic – 18 %", "nobody overlooks it"
+    assert with_share(cause("elastic", 0.1, 0.55), first=False).endswith("10 % (55 % of what calibration leaves)")
 
 
 def test_what_is_next_to_nothing_is_no_cause_at_all() -> None:

@@ -8,6 +8,7 @@ UNITS: dict[str, tuple[tuple[float, float, str], ...]] = {
     # file unit: (from this size on, shown per file unit, shown unit), largest first
     "rad": ((5e-4, 1e3, "mrad"), (0.0, 1e6, "µrad")),
     "rad/(N m)": ((1e-3, 1e3, "mrad per N m"), (0.0, 1e6, "µrad per N m")),
+    "m/(N m)": ((0.0, 1e6, "µm per N m"),),
     "rad/(N m K)": ((1e-3, 1e3, "mrad per N m and K"), (0.0, 1e6, "µrad per N m and K")),
     "rad/(m/s^2)": ((1e-3, 1e3, "mrad per m/s²"), (0.0, 1e6, "µrad per m/s²")),
     "rad/rad": ((1e-3, 1e3, "mrad per rad"), (0.0, 1e6, "µrad per rad")),

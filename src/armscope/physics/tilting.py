@@ -7,8 +7,9 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
+from armscope.core.numerals import rounded
 from armscope.core.types import Array
-from armscope.physics.clause import clear_ones
+from armscope.physics.clause import CLEAR, Told, clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.elastic import plausible_give
@@ -71,9 +72,8 @@ BY_AXES = {
     "compliance_x": "about x", "compliance_y": "about y", "compliance_z": "about z",
     "compliance_xy": "about x under a moment about y", "compliance_xz": "about x under a moment about z",
     "compliance_yz": "about y under a moment about z",
-    "shift": "its origin moves, about a foot below, by",
-    "shift_x": "its origin moves along y by", "shift_y": "its origin moves along x by",
-    "shift_xy": "its origin moves crosswise by",
+    "shift": "its origin moves across by", "shift_x": "its origin moves along y by",
+    "shift_y": "its origin moves along x by", "shift_xy": "its origin moves crosswise by",
 }  # fmt: skip
 """What the numbers of a symmetric compliance are called; each also says what is about the other axis."""
 
@@ -175,6 +175,16 @@ def stiffest_of_two(values: Array, covariance: Array) -> tuple[float, float]:
     return float(size[0]), float(np.sqrt(slope @ covariance @ slope))
 
 
+def _about_its_foot(told: Told) -> str:
+    """A clause of a base that tilts about a point on its own axis; not for use where either size is open."""
+    tilt, shift = told.numbers["compliance"], told.numbers["shift"]
+    if min(tilt.value - CLEAR * tilt.stderr, abs(shift.value) - CLEAR * shift.stderr) <= 0:
+        raise KeyError("shift")
+    height = shift.value / tilt.value
+    where = f"{rounded(abs(height))} m {'below' if height > 0 else 'above'} its origin"
+    return f"the base tilts by {tilt} under the arm's moment, about a point {where}"
+
+
 BASE_COMPLIANCE = Effect(
     "base_compliance",
     "elastic",
@@ -184,11 +194,12 @@ BASE_COMPLIANCE = Effect(
     Cure(
         "Stiffen the mounting.",
         otherwise="No motor turns the base: otherwise let the corrected model's inverse kinematics compute the "
-        "commands (base tilted by + compliance x moment; `armscope compensate`).",
+        "commands (base tilted by + compliance x moment, and moved across as far as is told; `armscope compensate`).",
         change="mounting",
         instruction="Tighten and stiffen the mounting of the base.",
     ),
     clauses=(
+        _about_its_foot,
         "the base tilts by {compliance} under the arm's moment",
         clear_ones(
             "the base tilts {} under the arm's moment",

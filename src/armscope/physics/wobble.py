@@ -69,10 +69,11 @@ AXIS_WOBBLE = Effect(
     Cure(
         "Replace or re-seat the bearing.",
         otherwise="No motor turns across its axis: until then let the corrected model's inverse kinematics compute the "
-        "commands (nominal axis + fitted tilt; `armscope compensate`).",
+        "commands (nominal axis, tilted and moved across as fitted; `armscope compensate`).",
         change="bearing",
         instruction="Re-seat or replace the bearing of {location}.",
     ),
     clauses=(swings("the axis of {location} tilts"),),
+    labels={"run_out": "moves across, at its origin, by ±"},
     atlas=waves_column,
 )

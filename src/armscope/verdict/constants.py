@@ -118,6 +118,17 @@ class WordingRules(Constants):
         "times its share of the whole from which a cause's share of what calibration leaves is told beside it",
         "judgement: less is the same in words",
     )
+    about_as_much: float = constant(
+        0.5,
+        "of the largest share in a cause, from which a member with a sure name and more evidence is told before one "
+        "without",
+        "judgement: what is sure to be half of it is more to a reader than what may be all",
+    )
+    large_anyway: float = constant(
+        0.15,
+        "share of the whole from which a cause's share of what calibration leaves is not told beside it",
+        "judgement: nobody overlooks it, and a second share only makes one ask what the first is of",
+    )
     told_at_all: float = constant(
         1e-3, "share from which a cause that is not worth a clause is counted", "judgement: less is nothing to look for"
     )

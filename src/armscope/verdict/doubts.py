@@ -65,7 +65,8 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     _, _, region = effect.title.partition(", ")
     first = f"First find out which it is: {which}{how}."
     if not (rivals or _either(effect)):
-        first = f"Confirm it first: that it is {effect.family}{', ' * bool(region)}{region} is sure, its name is not."
+        for_sure = f"it is the {effect.location}" if effect.location == "payload" else kind_and_place(effect)
+        first = f"Confirm it first: that {for_sure} is sure, its name is not."
     unsure = CONFIRM_FIRST if effect.size_open else NEVER_AGAIN if effect.never_chosen else ""
     if unsure:
         first = f"{unsure} {first}" if rivals else unsure

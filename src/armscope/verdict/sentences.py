@@ -81,7 +81,7 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     """
     # what no table of the same rows drawn anew names leads nothing: it is one of the small errors, or no part for sure
     main = [effect for effect in members if not effect.minor]
-    told = [e for e in main if not e.never_chosen][:1] or ([] if small else list((main or members)[:1]))
+    told = _leading([e for e in main if not e.never_chosen]) or ([] if small else list((main or members)[:1]))
     none_stands_out = SPREAD.get(family, f"small {family} errors in all joints and links")
     none_stands_out += WORST + small.worst if small and small.worst else ""
     if small and warms(family, small.worst):
@@ -94,6 +94,16 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
         return _with_others(f"{IN_ALL[family]}{MOST_OF_ALL}{phrase(told[0])}", beside)
     beside += [BESIDE.get(family, _OTHERS)] if small else []
     return _with_others(" and ".join([phrase(told[0]), *map(_how, more)]), beside)
+
+
+def _leading(members: Sequence[FoundEffect]) -> Sequence[FoundEffect]:
+    """The one with the largest share; or the first with a sure name, more evidence, and about as much of the error."""
+    if not members or members[0].named_as == "effect":
+        return members[:1]
+    largest = members[0]
+    near = [e for e in members if e.share > WORDS.about_as_much * largest.share]
+    sure = [e for e in near if e.named_as == "effect" and e.evidence_nats > largest.evidence_nats]
+    return sure[:1] or members[:1]
 
 
 def _goes_on(told: FoundEffect, members: Sequence[FoundEffect]) -> list[FoundEffect]:

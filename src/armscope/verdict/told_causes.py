@@ -25,10 +25,10 @@ def with_share(cause: Cause, first: bool) -> str:
 
 
 def of_what_calibration_leaves(told: FoundEffect | Cause) -> str:
-    """ "60 % of what calibration leaves"; "" where that is little, or little more than of the whole."""
+    """ "60 % of what calibration leaves"; "" where that is little, or the share of the whole says enough."""
     after = told.share_after_calibration
-    hidden = stands_out(told) and after > WORDS.hidden_by_geometry * told.share
-    return f"{percent(after)} of what calibration leaves" if hidden else ""
+    seen = told.share >= WORDS.large_anyway or after <= WORDS.hidden_by_geometry * told.share
+    return f"{percent(after)} of what calibration leaves" if stands_out(told) and not seen else ""
 
 
 def told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:

@@ -133,12 +133,23 @@ def also_out(family: str, told: FoundEffect, members: Sequence[FoundEffect]) -> 
         return [f"{spelled(len(others))} more at the same place"] if others else []
     if len(places) > WORDS.places:
         return [f"{_ALSO.get(family, 'also')}: {spelled(len(places))} more places"]
-    kinds: dict[str, list[str]] = {}  # "has play (also off: joint 4)" would be read as play of joint 4
+    kinds: dict[str, list[str]] = {"": []}  # "has play (also off: joint 4)" would be read as play of joint 4
     for effect in (each for each in others if each.location in places):
-        kind = "" if effect.effect == told.effect else f"{plain(effect.effect)} at "
-        kinds.setdefault(kind, []).append(effect.location)
-    where = enumerated([kind + places_in_words(list(dict.fromkeys(those))) for kind, those in kinds.items()])
-    return [f"{_ALSO.get(family, 'also')}: {where}"]
+        alone = _needs_no_kind(effect)
+        kind = "" if alone or effect.effect == told.effect else f"{plain(effect.effect)} at "
+        kinds.setdefault(kind, []).append(alone or effect.location)
+    told_places = ((kind, places_in_words(list(dict.fromkeys(those)))) for kind, those in kinds.items() if those)
+    return [f"{_ALSO.get(family, 'also')}: {enumerated([kind + where for kind, where in told_places])}"]
+
+
+def _needs_no_kind(effect: FoundEffect) -> str:
+    """ "joint 3", "link 2", "base": what gives way there is the place itself; "payload error"; "" of anything else."""
+    kind = effect.location.partition(" ")[0]
+    if not effect.effect.startswith(f"{kind}_"):
+        return ""
+    if effect.family == "elastic" and kind != "payload":
+        return effect.location
+    return plain(effect.effect) if kind == effect.location else ""
 
 
 def places_in_words(places: Sequence[str]) -> str:

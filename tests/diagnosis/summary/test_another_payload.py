@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.another_payload import as_good_as_told
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.effects import Parameter
 from tests.diagnosis.planted import Wanted, one_run, recorded
 from tests.physics.scenes import arm_named
 
@@ -53,3 +55,8 @@ def test_a_payload_as_stated_leaves_intervals_as_they_are() -> None:
         assert low < true < high
         assert high - low < 0.3 * value
     assert not any(HEAVIER in effect.confirm for effect in verdict.effects)
+
+
+@pytest.mark.parametrize(("change", "within"), [(-0.02, True), (0.19, True), (0.21, False), (-0.25, False)])
+def test_a_payload_that_leaves_a_number_in_its_interval_need_not_be_weighed_for_it(change: float, within: bool) -> None:
+    assert as_good_as_told(Parameter("compliance", "rad/(N m)", 1e-6, 1e-7), change) == within

@@ -23,6 +23,7 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
+from armscope.physics.wobble import RUNS_OUT
 from armscope.verdict.effects import Alternative, Specific
 from armscope.verdict.wording import effect_in_words, places_in_words
 
@@ -100,9 +101,13 @@ def _in_place_of(
         gap = (likeness if of_background else best.log_posterior) - other.log_posterior - paid + own
         excluded = other.chosen[-1].candidate in candidate.excludes
         misfit = (other.rss - best.rss) / (2 * best.noise**2)
-        as_likely = (candidate.is_curve and excluded) or (misfit < NAMING.alike_nats and _is_other(candidate, rival))
+        # an axis that runs out anyhow has eight numbers, and imitates much
+        asks = not rival.variant.endswith(RUNS_OUT)
+        alike = asks and misfit < NAMING.alike_nats and _is_other(candidate, rival)
+        as_likely = (candidate.is_curve and excluded) or alike
         near = gap <= (NAMING.listed_nats_of_special_cases if as_likely else NAMING.listed_nats)
-        asked = misfit < NAMING.listed_nats and gap <= NAMING.listed_nats_of_special_cases and not rival.is_curve
+        asks = asks and misfit < NAMING.listed_nats and not rival.is_curve
+        asked = asks and gap <= NAMING.listed_nats_of_special_cases
         if (rest and excluded) or rival.key in taken or _is_more_than(candidate, rival) or not (near or asked):
             continue
         worth = PRIORS.sure_nats if explained_anyway or own else 0.0

@@ -108,15 +108,22 @@ def _under_either(
 
     if len(effect.parameters) != len(columns):
         return effect
+    main = int(np.argmax(np.abs(as_told)))
+    change, number = float(changes[main]), effect.parameters[main]
     widened_numbers = tuple(map(widened, effect.parameters, changes.tolist(), widths.tolist()))
     effect = replace(effect, parameters=widened_numbers)
-    if any(each.effect == PAYLOAD_ERROR.name for each in effect.alternatives):
-        return effect  # of a load that never changes, which is told with what it would be under others
+    if as_good_as_told(number, change) or any(each.effect == PAYLOAD_ERROR.name for each in effect.alternatives):
+        return effect  # the latter of a load that never changes: it is told with what it would be under others
     rival = payload_as_alternative(search, best, other)
     others = sorted((*effect.alternatives, *([rival] if rival else [])), key=lambda each: each.evidence_gap_nats)
-    main = float(changes[np.argmax(np.abs(as_told))])
     confirm = (
         "Weigh the payload first: these rows would as soon have another than is stated, and this would then be about "
-        f"{abs(100 * main):.0f} % {'larger' if main > 0 else 'smaller'}. {effect.confirm}"
+        f"{abs(100 * change):.0f} % {'larger' if change > 0 else 'smaller'}. {effect.confirm}"
     )
     return replace(effect, alternatives=tuple(others), confirm=confirm)
+
+
+def as_good_as_told(number: Parameter, change: float) -> bool:
+    """Whether a number under another payload stays within its interval: to weigh that would tell nothing new of it."""
+    low, high = number.interval
+    return low <= (1 + change) * number.value <= high

@@ -108,7 +108,7 @@ def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool
         how_specific=how_specific(effect),
         physics=effect.physics,
         confirm=effect.confirm,
-        cure=effect.cure,
+        cure=effect.cure.replace("`", ""),
         carries_over=effect.carries_over,
         figure=figure,
     )  # fmt: skip
