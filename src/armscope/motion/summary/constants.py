@@ -88,6 +88,11 @@ class HeldOutRules(Constants):
         "of the power of noise in a block, by which a background must make motion that took no part worse to go",
         "judgement: less is chance, and what it fits may be there; decided with recordings in view",
     )
+    leaves_more: float = constant(
+        2.0,
+        "times the power that masses as stated leave at a joint, from which masses without a name go",
+        "judgement: what says what is there leaves less at every joint; decided with one arm in view (5.7 times)",
+    )
     little_share: float = constant(
         0.05,
         "of what friction and rotors leave, below which causes that help nothing are no part of the story",
