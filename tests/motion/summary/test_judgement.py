@@ -10,6 +10,7 @@ import pytest
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.judgement import answer_of, apart_where_useless, headline
+from armscope.motion.summary.lasting import LastingTorque
 from armscope.motion.verdict import FoundCause, UnexplainedTorque
 from armscope.verdict.effects import Parameter
 from tests.motion.moving import ROBOT, moved, robot
@@ -82,6 +83,13 @@ def test_little_that_helps_nothing_is_no_mismatch() -> None:
     assert answer_of(apart, UnexplainedTorque(False), useless) == ("nothing missing", False)
     assert headline(apart, useless).startswith("Nothing that helps elsewhere is missing")
     assert answer_of(apart, UnexplainedTorque(True), useless)[0] == "cannot tell"
+
+
+def test_what_lasts_beside_no_cause_is_not_met_by_causes() -> None:
+    lasts = LastingTorque(2, "torque of joint 2", 0.4, 0.12, 0.2)
+    told = headline([], HeldOutErrors(0.052, 0.051, 0.044), [lasts])
+    assert "No cause of the library explains it. On held-out motion" in told
+    assert "these causes" not in told
 
 
 def test_what_is_large_or_helps_is_part_of_the_story() -> None:

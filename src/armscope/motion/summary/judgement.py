@@ -211,7 +211,7 @@ def headline(
             f"{ON_HELD_OUT} the torque is met to {met} by them instead of {before}."
         )
     if not found and lasting:
-        return f"{beyond}No cause of the library explains it. {errors.words()}"
+        return f"{beyond}No cause of the library explains it. {errors.words(causes=False)}"
     if not found:
         met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.named)} %."
         if errors.foretells_nothing:
@@ -221,7 +221,8 @@ def headline(
             )
         return f"Nothing is missing beyond friction and rotors of the joints. {met}"
     if errors.no_answer and not main and not lasting:
-        return f"Nothing that helps elsewhere is missing beyond friction and rotors of the joints. {errors.words()}"
+        nothing = "Nothing that helps elsewhere is missing beyond friction and rotors of the joints"
+        return f"{nothing}. {errors.words(causes=False)}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
     if errors.no_answer:
