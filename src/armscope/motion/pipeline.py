@@ -68,7 +68,7 @@ from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
 from armscope.motion.summary.step_by_step import waterfall
 from armscope.motion.summary.tenable import tenable
-from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
+from armscope.motion.summary.told_gains import FITTED_GAINS, rests_on_gains, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
@@ -222,9 +222,13 @@ def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) ->
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
-    """The headline; where nothing is missing, with gains that say so, and how coarsely and far torque is recorded."""
-    kinds = (COARSE, CUT_OFF, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
-    return " ".join([verdict.headline, *(notice.text for notice in notices if notice.kind in kinds)])
+    """The headline, with gains it rests on; where nothing is missing, with how coarsely and far torque is recorded."""
+    nothing = verdict.answer == "nothing missing"
+    kinds = (*((COARSE, CUT_OFF) if nothing else ()), *((FITTED_GAINS,) if nothing or rests_on_gains(verdict) else ()))
+    told = verdict.headline
+    if nothing and any(notice.kind == CUT_OFF for notice in notices):
+        told = f"Beside samples that are cut off, {told[0].lower()}{told[1:]}"
+    return " ".join([told, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
 def _carried(motions: Motions) -> dict[str, float]:
