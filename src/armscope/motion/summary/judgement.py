@@ -30,6 +30,9 @@ from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
 from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
+MASSES_OFF = "Masses of the links"
+"""How a headline begins to say that they are off without a name."""
+
 
 def found_causes(selected: SelectedCauses, sure: Sureness, worth: Sequence[Worth]) -> list[tuple[int, FoundCause]]:
     """Every chosen cause with what is known about it, largest share first, beside its candidate's number.
@@ -206,7 +209,7 @@ def headline(
     if not main and errors.only_unnamed and not errors.foretells_nothing:
         met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
         return (
-            "Masses of the links are not as stated, in a way that no single name says better than all of them off a "
+            f"{MASSES_OFF} are not as stated, in a way that no single name says better than all of them off a "
             f"little: corrected.urdf has them as fitted. {likeliest}{beyond}"
             f"{ON_HELD_OUT} the torque is met to {met} by them instead of {before}."
         )
@@ -231,7 +234,7 @@ def headline(
     causes = "; ".join(
         f"{clause(c)}{_worth(c.share, of_what[n])}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
-    unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}"
+    unnamed = f"{MASSES_OFF} that are off without a name add {percent(errors.by_masses)}"
     if masses_lead(found, errors):
         first = f"{unnamed}{of_what[0]}; corrected.urdf has them as fitted. {likeliest}"
         return f"{first}{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
