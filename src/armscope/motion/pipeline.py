@@ -52,6 +52,7 @@ from armscope.motion.summary.intervals import Sureness, covariance_of, level_tol
 from armscope.motion.summary.judgement import (
     answer_of,
     apart_where_useless,
+    doubted_beside,
     found_causes,
     headline,
     joint_backgrounds,
@@ -274,7 +275,7 @@ def _judged(
     left = unexplained(found, lasting)
     off = share_of_masses(selected, selected.best)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
-    found = apart_where_useless(found, errors)
+    found = apart_where_useless(doubted_beside(found, lasting), errors)
     answer, mismatch = answer_of(found, left, errors)
     likeliest = likeliest_in_words(selected) if errors.only_unnamed or masses_lead(found, errors) else ""
     verdict = MotionVerdict(

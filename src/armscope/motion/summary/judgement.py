@@ -253,6 +253,16 @@ def apart_where_useless(found: Sequence[FoundCause], errors: HeldOutErrors) -> l
     return [replace(cause, minor=True) if little and errors.useless else cause for cause in found]
 
 
+def doubted_beside(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -> list[FoundCause]:
+    """Causes with a doubt on each at whose joint more lasts without a law than it says itself."""
+    rms = {f"joint {each.joint + 1}": each.rms for each in lasting}
+    told = "More than it says lasts at this joint and has no law: it may stand for a part of that."
+    return [
+        replace(cause, doubt=f"{cause.doubt} {told}".lstrip()) if rms.get(cause.joint, 0.0) > cause.rms else cause
+        for cause in found
+    ]
+
+
 def _told(found: Sequence[FoundCause]) -> list[FoundCause]:
     """Those that are part of the story."""
     return [cause for cause in found if not cause.minor]
