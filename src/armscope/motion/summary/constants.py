@@ -56,6 +56,9 @@ class NamingRules(Constants):
         "judgement: a fifth of it is then as likely as nearly twice of it",
         unit="1",
     )
+    numbers_in_a_sentence: int = constant(
+        3, "of a likely name, beyond which it stands without them", "judgement: six of an inertia hid the names"
+    )
     at_the_flange: float = constant(
         1 / 3,
         "share of the flange's lever about the last joint within which a load is none that hangs at it",
