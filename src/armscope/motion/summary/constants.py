@@ -56,6 +56,12 @@ class NamingRules(Constants):
         "judgement: a fifth of it is then as likely as nearly twice of it",
         unit="1",
     )
+    later_than_all_s: float = constant(
+        0.006,
+        "by which one joint's friction must change sides later than any other's to be told as that",
+        "judgement: as far as joints of one arm differ; decided with one arm in view, a delay of 8 ms at one joint",
+        unit="s",
+    )
     numbers_in_a_sentence: int = constant(
         3, "of a likely name, beyond which it stands without them", "judgement: six of an inertia hid the names"
     )
