@@ -20,3 +20,5 @@ def test_where_no_cause_is_told_none_is_said_to_meet_it() -> None:
     words = HeldOutErrors(0.052, 0.051, 0.044).words(causes=False)
     assert "met to 4.4 % instead of 5.2 % by what is fitted along; to 5.1 % where that, too," in words
     assert "causes" not in words
+    words = HeldOutErrors(0.0516, 0.0505, 0.0516).words(causes=False)
+    assert words.endswith("met to 5.2 % by friction and rotors alone.")

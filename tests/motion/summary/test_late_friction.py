@@ -70,4 +70,5 @@ def test_a_joint_that_is_later_than_all_others_is_pointed_at() -> None:
     assert latest_in_words(told).startswith(" By 9.0 ms joint 4 is later than any other")
     assert latest_in_words([*told, (5, 0.016, 0.001)]) == ""
     assert latest_in_words([told[0], (3, 0.020, 0.01)]) == ""
+    assert latest_in_words([*told, (5, 0.106, 0.03)]) == ""  # no friction turns so late: it is no moment at all
     assert latest_in_words(told[:1]) == ""

@@ -70,7 +70,7 @@ class HeldOutErrors:
         """How well torque is met, in a sentence; where no causes were told, not by them."""
         digits = 2 if _told_by(2, self.named) != _told_by(2, self.without) else 3
         without, anew, named = (_told_by(digits, error) for error in (self.without, self.anew, self.named))
-        if named == without == anew:
+        if named == without and (named == anew or not causes):
             return f"{ON_HELD_OUT} the torque is met to {_told_by(2, self.without)} by friction and rotors alone."
         if named == anew:
             return f"{ON_HELD_OUT} the torque is met to {named} instead of {without}."

@@ -71,7 +71,7 @@ def latest_in_words(told: Sequence[tuple[int, float, float]]) -> str:
         return ""
     next_to, latest = sorted(told, key=lambda each: each[1])[-2:]
     by = latest[1] - next_to[1]
-    if by <= max(NAMING.later_than_all_s, latest[2] + next_to[2]):
+    if latest[1] > PRIOR.longest_turning_s or by <= max(NAMING.later_than_all_s, latest[2] + next_to[2]):
         return ""
     joint = f"joint {latest[0] + 1}"
     return f" By {rounded(1e3 * by)} ms {joint} is later than any other: see whether its torque is recorded later."

@@ -18,25 +18,21 @@ from armscope.motion.fitting.space import OF_MASSES, without_backgrounds
 from armscope.motion.summary.constants import HELD_OUT
 
 
-def without_misplaced_masses(selected: SelectedCauses) -> tuple[SelectedCauses, frozenset[str]]:
-    """The selection with masses as stated, where such ones clearly leave less at some joint.
+def without_misplaced_masses(selected: SelectedCauses) -> SelectedCauses:
+    """The selection with masses as stated, weighed by what it leaves then, where that is clearly less at some joint.
 
-    Args:
-        selected: what the evidence asks for.
-
-    Returns:
-        A selection, weighed by what it leaves itself, and the families that it goes without.
+    It has the same names. Those that hid such masses, as the other half of what they say, may have gone just before.
     """
     stated = _as_stated(selected)
     if stated is None:
-        return selected, frozenset()
+        return selected
     moves = selected.weights.row > 0
     left, of_stated = (np.sum(moves * each.residuals**2, axis=0) for each in (selected, stated))
     if not np.any(left > HELD_OUT.leaves_more * of_stated):
-        return selected, frozenset()
+        return selected
     before = stated.best, stated.best.chosen
     again = chosen(stated.rows, stated.noise, stated.block, stated.space, before, stated)
-    return at_own_gain(again), OF_MASSES
+    return at_own_gain(replace(again, best=Search.on(again.problem).evaluated(stated.best.chosen, again.best)))
 
 
 def _as_stated(selected: SelectedCauses) -> SelectedCauses | None:

@@ -35,7 +35,6 @@ from armscope.motion.summary.constants import PLAUSIBLE
 from armscope.motion.summary.doubts import motion_hz, swing_hz
 from armscope.motion.summary.foretelling import held_out_gains, misfits, with_backgrounds_that_foretell
 from armscope.motion.summary.in_proportion import rather_in_proportion
-from armscope.motion.summary.misplaced import without_misplaced_masses
 from armscope.motion.summary.names_of_masses import NameOfMasses, far_off, likeliest_name, likely_names
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
 from armscope.motion.summary.rather_carried import rather_carried
@@ -55,9 +54,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
     """
     barred = frozenset(n for n, each in enumerate(selected.space.candidates) if not each.competes)
     torque = np.sqrt(np.mean(selected.rows.torque**2, axis=0))
-    selected, misplaced = without_misplaced_masses(selected)
     selected, without = with_backgrounds_that_foretell(selected)
-    without |= misplaced
     for number in itertools.count():  # ends: from some round on names only go
         wrong = _untenable(selected, rate)
         if not wrong:
