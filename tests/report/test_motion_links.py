@@ -19,6 +19,9 @@ def test_a_drive_that_winds_up_has_a_card_and_a_figure(tmp_path: Path) -> None:
     assert cause.confirm in page
     assert cause.cure.partition(":")[0] in page
     assert 'id="cause-link-3-1"' in page
+    order = (tmp_path / "work-order.html").read_text(encoding="utf-8")
+    assert cause.confirm in order
+    assert cause.cure.partition(":")[0] in order
     assert (tmp_path / "figures" / "twist_3.svg").exists()
     (side,) = links_of_motion(MotionSubject(found, "motions.csv"))["sides"]
     assert side["joint"] == "joint 3"

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.summary.entering import Entered
+from armscope.motion.summary.judgement import MASSES_OFF
+from armscope.motion.summary.lasting import LASTS
+from armscope.motion.verdict import UnexplainedTorque
 from armscope.report.pages.motion import write_motion_report
 from armscope.report.sections.motion_work import error_in_words, pays, where_it_shows
-from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
+from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, moved, robot
 
 
 def test_who_has_stated_all_drives_is_not_sent_to_a_table_of_dashes(tmp_path: Path) -> None:
@@ -60,3 +64,34 @@ def test_a_turned_current_is_told_as_that_on_page_and_order(tmp_path: Path) -> N
         assert "The sign of the recorded torque of joint 3 is turned" in text
         assert "Turn the sign of current3_a" in text
         assert "too small" not in text
+
+
+def order_of(found: MotionDiagnosis, folder: Path) -> str:
+    write_motion_report(found, "motions.csv", folder)
+    return (folder / "work-order.html").read_text(encoding="utf-8").replace("\u00a0", " ")
+
+
+def test_masses_are_a_step_only_where_the_headline_says_that_they_are_off(tmp_path: Path) -> None:
+    """ "No cause of the library explains it" was the headline, "masses are not as stated" a step of the order."""
+    links: list[dict[str, Any]] = ROBOT["links"]  # type: ignore[assignment]
+    off = [(0.96, (6, -8, 5)), (1.05, (12, 15, -9)), (0.97, (-14, 6, 11))]
+    true = [
+        {**link, "mass_kg": share * link["mass_kg"], "com_mm": [a + b for a, b in zip(link["com_mm"], by, strict=True)]}
+        for link, (share, by) in zip(links, off, strict=True)
+    ]
+    found = diagnose_motion(robot(), moved(robot(links=true), 1, noise=0.005, seconds=10.0))
+    assert found.verdict.headline.startswith(MASSES_OFF)
+    step = f"<b>{MASSES_OFF} are not as stated.</b>"
+    assert step in order_of(found, tmp_path)
+    other = replace(found.verdict, headline="Something lasts that has no law here. No cause explains it.")
+    assert step not in order_of(replace(found, verdict=other), tmp_path)
+
+
+def test_what_lasts_comes_before_all_steps(tmp_path: Path) -> None:
+    """The order did not have it."""
+    found = diagnose_motion(robot(), moved(robot(), 1, seconds=10.0), MotionSettings(cutoff=10.0))
+    assert "First look there" not in order_of(found, tmp_path)
+    lasts = UnexplainedTorque(True, "joint 3", "angle", f"{LASTS}: 12 % of the torque of joint 3, following the angle")
+    order = order_of(replace(found, verdict=replace(found.verdict, unexplained=lasts)), tmp_path)
+    assert f"First look there: {lasts.description}." in order
+    assert order.index("First look there") < order.index("Friction and rotors of every joint")

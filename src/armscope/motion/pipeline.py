@@ -52,6 +52,7 @@ from armscope.motion.summary.intervals import Sureness, covariance_of, level_tol
 from armscope.motion.summary.judgement import (
     answer_of,
     apart_where_useless,
+    doubted_beside,
     found_causes,
     headline,
     joint_backgrounds,
@@ -68,7 +69,7 @@ from armscope.motion.summary.shares import worth_of
 from armscope.motion.summary.stated_load import load_or_link
 from armscope.motion.summary.step_by_step import waterfall
 from armscope.motion.summary.tenable import tenable
-from armscope.motion.summary.told_gains import FITTED_GAINS, told_gains
+from armscope.motion.summary.told_gains import FITTED_GAINS, rests_on_gains, told_gains
 from armscope.motion.summary.torque_atlas import torque_atlas
 from armscope.motion.verdict import MotionVerdict
 from armscope.recordings.motions import Motions
@@ -222,9 +223,13 @@ def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) ->
 
 
 def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> str:
-    """The headline; where nothing is missing, with gains that say so, and how coarsely and far torque is recorded."""
-    kinds = (COARSE, CUT_OFF, FITTED_GAINS) if verdict.answer == "nothing missing" else ()
-    return " ".join([verdict.headline, *(notice.text for notice in notices if notice.kind in kinds)])
+    """The headline, with gains it rests on; where nothing is missing, with how coarsely and far torque is recorded."""
+    nothing = verdict.answer == "nothing missing"
+    kinds = (*((COARSE, CUT_OFF) if nothing else ()), *((FITTED_GAINS,) if nothing or rests_on_gains(verdict) else ()))
+    told = verdict.headline
+    if nothing and any(notice.kind == CUT_OFF for notice in notices):
+        told = f"Beside samples that are cut off, {told[0].lower()}{told[1:]}"
+    return " ".join([told, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
 def _carried(motions: Motions) -> dict[str, float]:
@@ -270,7 +275,7 @@ def _judged(
     left = unexplained(found, lasting)
     off = share_of_masses(selected, selected.best)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
-    found = apart_where_useless(found, errors)
+    found = apart_where_useless(doubted_beside(found, lasting), errors)
     answer, mismatch = answer_of(found, left, errors)
     likeliest = likeliest_in_words(selected) if errors.only_unnamed or masses_lead(found, errors) else ""
     verdict = MotionVerdict(

@@ -70,4 +70,5 @@ def test_motion_that_turns_back_has_no_rail(seed: int) -> None:
 def test_what_lies_on_a_rail_names_nothing(noise: float) -> None:
     verdict = diagnose_motion(robot(), clipped(3, 0.2, noise)[0], MotionSettings(cutoff=10.0)).verdict
     assert (verdict.answer, verdict.effects) == ("nothing missing", ())
+    assert verdict.headline.startswith("Beside samples that are cut off, nothing is missing")
     assert "tau2_nm stays at" in verdict.headline

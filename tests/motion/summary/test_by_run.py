@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -45,6 +46,9 @@ def test_friction_that_differs_by_run_is_told_at_its_joint(dry: bool, follows: s
     assert verdict.unexplained.driver is not None
     assert verdict.unexplained.driver.startswith(f"{follows}, otherwise in each run")
     assert f"following the {follows}, otherwise" in verdict.unexplained.description
+    said = r"run: friction is (\d+) % (?:higher in run path 1|lower in run path 3) than in the middle one"
+    (by,) = re.findall(said, verdict.unexplained.driver)
+    assert 40 < float(by) < 80
 
 
 @pytest.mark.long

@@ -11,7 +11,7 @@ from armscope.core.types import Array
 from armscope.motion.library.dry_friction import ChangeOfSides
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.samples.preparation import Signals
-from armscope.motion.summary.late_friction import told_late
+from armscope.motion.summary.late_friction import latest_in_words, told_late
 from armscope.verdict.schema import Notice
 from tests.motion.moving import COULOMB, moved, robot
 
@@ -62,3 +62,13 @@ def test_a_joint_that_pauses_changes_no_sides_too_soon() -> None:
     still[:3, JOINT] = True
     pausing = replace(found.selected, rows=replace(found.selected.rows, still=still))
     assert told_late(pausing, found.sure) == []
+
+
+def test_a_joint_that_is_later_than_all_others_is_pointed_at() -> None:
+    """A torque read 8 ms late at one joint was 20 ms in a list of 7 to 11."""
+    told = [(0, 0.011, 0.0007), (3, 0.020, 0.0016), (4, 0.011, 0.0008)]
+    assert latest_in_words(told).startswith(" By 9.0 ms joint 4 is later than any other")
+    assert latest_in_words([*told, (5, 0.016, 0.001)]) == ""
+    assert latest_in_words([told[0], (3, 0.020, 0.01)]) == ""
+    assert latest_in_words([*told, (5, 0.106, 0.03)]) == ""  # no friction turns so late: it is no moment at all
+    assert latest_in_words(told[:1]) == ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -36,9 +37,20 @@ def test_odds_that_leave_no_doubt_are_not_called_unsure(
     monkeypatch.setattr("armscope.motion.summary.likeliest.title", lambda each: "link mass at link 5")
     assert likeliest_in_words(found).startswith(f"The likeliest name, {words}")  # type: ignore[arg-type]
     monkeypatch.setattr("armscope.motion.summary.likeliest.likely_names", lambda selected: [name, name])
-    assert likeliest_in_words(found).endswith(  # type: ignore[arg-type]
-        "link mass at link 5, mass −0.34 kg or link mass at link 5, mass −0.34 kg. "
+    several = likeliest_in_words(found)  # type: ignore[arg-type]
+    assert several.startswith(
+        f"The likeliest names, of which these rows tell none from the next, {words.split(':')[0]}"
     )
+    assert several.endswith("link mass at link 5, mass −0.34 kg or link mass at link 5, mass −0.34 kg. ")
+
+
+def test_six_numbers_of_an_inertia_do_not_stand_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    placed = SimpleNamespace(parameters=6 * (("Ixx", "kg m^2"),))
+    layout = SimpleNamespace(placed=[placed], columns=[np.arange(6)])
+    found: Any = SimpleNamespace(rows=SimpleNamespace(layout=layout), coefficients=np.ones(6))
+    monkeypatch.setattr("armscope.motion.summary.likeliest.likely_names", lambda _: [NameOfMasses(found, 0, 2.5)])
+    monkeypatch.setattr("armscope.motion.summary.likeliest.title", lambda each: "link inertia at link 2")
+    assert likeliest_in_words(found).endswith("told as one (12 to 1): link inertia at link 2. ")
 
 
 @pytest.mark.long

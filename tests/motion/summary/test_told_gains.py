@@ -5,13 +5,15 @@ from __future__ import annotations
 import dataclasses
 import re
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from armscope.motion.summary.told_gains import factors_in_words
+from armscope.motion.summary.told_gains import factors_in_words, rests_on_gains
+from armscope.motion.verdict import MotionVerdict, Step
 from armscope.recordings.motions import Motions
 from armscope.report.pages.motion import write_motion_report
 from armscope.verdict.effects import Parameter
@@ -113,6 +115,16 @@ def test_a_gain_within_what_is_stated_that_matters_is_told_by_a_notice() -> None
     assert factor == pytest.approx(1 / 1.06, rel=0.01)
     assert told in verdict.headline
     assert verdict.waterfall[1].label == "torque constants near the stated"
+
+
+def test_gains_that_mend_most_are_told_behind_a_cause_that_has_a_name() -> None:
+    """Friction of one joint was the whole headline; a constant 2.47 times its uncertainty off stood in a note."""
+    base, along = Step("friction and rotors", 0.062, 0.082), Step("torque constants near the stated", 0.022, 0.052)
+    verdict = cast(MotionVerdict, SimpleNamespace(waterfall=(base, along)))
+    assert rests_on_gains(verdict)
+    with_masses = dataclasses.replace(along, label="masses and torque constants near the stated")
+    for others in ((base,), (base, dataclasses.replace(along, held_out=0.08)), (base, with_masses)):
+        assert not rests_on_gains(cast(MotionVerdict, SimpleNamespace(waterfall=others)))
 
 
 @pytest.mark.parametrize("gain", [0.82, 1.2])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -57,7 +58,10 @@ def diagnosed(extra: Callable[[int, Array], Array] | None, seed: int = 3) -> Mot
 @pytest.mark.parametrize("extra", seeds(dragging, wandering))
 def test_what_is_off_for_seconds_is_told_at_its_joint(extra: Callable[[int, Array], Array]) -> None:
     found = diagnosed(extra)
-    assert [each.joint for each in wandering_torques(found.selected)] == [JOINT]
+    (told,) = wandering_torques(found.selected)
+    assert told.joint == JOINT
+    assert re.fullmatch(rf"{DRIVER}, by up to [\d.]+ N m in run path \d", told.driver)
+    assert extra is not dragging or told.driver.endswith("in run path 2")
     verdict = found.verdict
     assert verdict.unexplained.location == f"joint {JOINT + 1}"
     assert verdict.answer != "nothing missing"

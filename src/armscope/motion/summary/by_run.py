@@ -6,6 +6,8 @@ law of it: it would count as noise, and nothing would be missing. But each run b
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from armscope.core.types import Array
@@ -13,12 +15,23 @@ from armscope.inference.search import Search
 from armscope.motion.fitting.consistency import sizes_by_block
 from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
+from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import LASTING
 from armscope.motion.summary.lasting import LastingTorque
+from armscope.verdict.wording import percent
 
 KINDS = {"viscous": "speed", "coulomb": "direction"}
 """Frictions, and what each follows, in words."""
+
+
+@dataclass(frozen=True)
+class _Departure:
+    """By how much a joint's friction is another one in each block: (K,) N m; as a share of all, where it is most."""
+
+    torque: Array
+    most: float = 0.0
+    block: int = 0
 
 
 def friction_by_run(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
@@ -38,19 +51,19 @@ def friction_by_run(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
         which = selected.weights.row[:, j] > 0
         if np.sum(which) < LASTING.least_rows:
             continue
-        parts = [(float(np.mean(_departing(selected, j, kind)[which] ** 2)), kind) for kind in KINDS]
-        power, kind = max(parts)
+        departs = {kind: _departing(selected, j, kind) for kind in KINDS}
+        power, kind = max((float(np.mean(each.torque[which] ** 2)), kind) for kind, each in departs.items())
         share = power / max(float(np.mean(before[which, j] ** 2)), 1e-300)
         if share > LASTING.share and power > LASTING.repeats * float(np.mean(selected.residuals[which, j] ** 2)):
             rms, torque = float(np.sqrt(power)), float(np.sqrt(np.mean(rows.torque[which, j] ** 2)))
-            words = f"{KINDS[kind]}, otherwise in each {where} (gears that warm up do so)"
+            words = f"{KINDS[kind]}, otherwise in each {where}: {_in_words(selected, departs[kind])}"
             found.append(LastingTorque(j, words, rms, rms / max(torque, 1e-300), share))
     return tuple(sorted(found, key=lambda each: -each.share))
 
 
-def _departing(selected: SelectedCauses, joint: int, kind: str) -> Array:
-    """(K,) N m by which a joint's friction is another one in each block; zero where blocks agree."""
-    rows, none = selected.rows, np.zeros(len(selected.rows))
+def _departing(selected: SelectedCauses, joint: int, kind: str) -> _Departure:
+    """Of one kind of a joint's friction; nothing where blocks agree."""
+    rows, none = selected.rows, _Departure(np.zeros(len(selected.rows)))
     column = OWN * joint + NAMED_OF_OWN.index(kind)
     whole = float(selected.coefficients[column] + np.nan_to_num(rows.layout.arm.stated_background[joint, column % OWN]))
     if whole <= 0:
@@ -67,4 +80,15 @@ def _departing(selected: SelectedCauses, joint: int, kind: str) -> Array:
     more = np.zeros(len(size))
     more[telling] = size[telling] - np.average(size[telling], weights=error[telling] ** -2)
     values = rows.columns[joint][:, np.searchsorted(rows.at[joint], column)].astype(np.float64)
-    return np.asarray(whole * more[selected.block] * values)
+    other = np.where(error < CONSISTENCY.telling, size - np.median(size[telling]), 0.0)
+    block = int(np.argmax(np.abs(other)))
+    return _Departure(np.asarray(whole * more[selected.block] * values), float(other[block]), block)
+
+
+def _in_words(selected: SelectedCauses, departs: _Departure) -> str:
+    """Where friction is another one by most, and by how much."""
+    run = selected.rows.run
+    of_block = str(run[np.argmax(selected.block == departs.block)])
+    where = run_in_words(of_block) if len(set(run.tolist())) > 1 else f"part {departs.block + 1}"
+    more = f"{percent(abs(departs.most))} {'higher' if departs.most > 0 else 'lower'}"
+    return f"friction is {more} in {where} than in the middle one (gears that warm up, or a brake that drags)"

@@ -56,6 +56,15 @@ class NamingRules(Constants):
         "judgement: a fifth of it is then as likely as nearly twice of it",
         unit="1",
     )
+    later_than_all_s: float = constant(
+        0.006,
+        "by which one joint's friction must change sides later than any other's to be told as that",
+        "judgement: as far as joints of one arm differ; decided with one arm in view, a delay of 8 ms at one joint",
+        unit="s",
+    )
+    numbers_in_a_sentence: int = constant(
+        3, "of a likely name, beyond which it stands without them", "judgement: six of an inertia hid the names"
+    )
     at_the_flange: float = constant(
         1 / 3,
         "share of the flange's lever about the last joint within which a load is none that hangs at it",
@@ -87,6 +96,11 @@ class HeldOutRules(Constants):
         0.1,
         "of the power of noise in a block, by which a background must make motion that took no part worse to go",
         "judgement: less is chance, and what it fits may be there; decided with recordings in view",
+    )
+    leaves_more: float = constant(
+        2.0,
+        "times the power that masses as stated leave at a joint, from which masses without a name go",
+        "judgement: what says what is there leaves less at every joint; decided with one arm in view (5.7 times)",
     )
     little_share: float = constant(
         0.05,

@@ -19,6 +19,7 @@ from armscope.motion.library import catalogue
 from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.holding_out import Fold
 from armscope.motion.summary.intervals import Sureness, sureness
+from armscope.motion.summary.misplaced import without_misplaced_masses
 from armscope.motion.summary.step_by_step import error_with
 
 
@@ -60,4 +61,5 @@ def without_what_harms(
         found = without[least]
     search = Search.on(selected.problem)
     selected = at_own_gain(replace(selected, best=search.evaluated(tuple(kept), best)))
+    selected = without_misplaced_masses(selected)
     return selected, sureness(selected, carried)

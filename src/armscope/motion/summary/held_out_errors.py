@@ -66,16 +66,17 @@ class HeldOutErrors:
     def _alike(self) -> bool:
         return self.anew <= HELD_OUT.as_good_anew * self.without
 
-    def words(self) -> str:
-        """How well torque is met, in a sentence."""
+    def words(self, causes: bool = True) -> str:
+        """How well torque is met, in a sentence; where no causes were told, not by them."""
         digits = 2 if _told_by(2, self.named) != _told_by(2, self.without) else 3
         without, anew, named = (_told_by(digits, error) for error in (self.without, self.anew, self.named))
-        if named == without == anew:
+        if named == without and (named == anew or not causes):
             return f"{ON_HELD_OUT} the torque is met to {_told_by(2, self.without)} by friction and rotors alone."
         if named == anew:
             return f"{ON_HELD_OUT} the torque is met to {named} instead of {without}."
-        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by these causes"
-        return f"{told}; to {anew} where the causes, too, are found without it."
+        by, too = ("these causes", "the causes, too, are") if causes else ("what is fitted along", "that, too, is")
+        told = f"{ON_HELD_OUT} the torque is met to {named} instead of {without} by {by}"
+        return f"{told}; to {anew} where {too} found without it."
 
 
 def _told_by(digits: int, error: float) -> str:

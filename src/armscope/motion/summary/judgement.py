@@ -30,6 +30,9 @@ from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
 from armscope.verdict.schema import Answer
 from armscope.verdict.wording import capitalised, percent, spelled
 
+MASSES_OFF = "Masses of the links"
+"""How a headline begins to say that they are off without a name."""
+
 
 def found_causes(selected: SelectedCauses, sure: Sureness, worth: Sequence[Worth]) -> list[tuple[int, FoundCause]]:
     """Every chosen cause with what is known about it, largest share first, beside its candidate's number.
@@ -206,12 +209,12 @@ def headline(
     if not main and errors.only_unnamed and not errors.foretells_nothing:
         met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
         return (
-            "Masses of the links are not as stated, in a way that no single name says better than all of them off a "
+            f"{MASSES_OFF} are not as stated, in a way that no single name says better than all of them off a "
             f"little: corrected.urdf has them as fitted. {likeliest}{beyond}"
             f"{ON_HELD_OUT} the torque is met to {met} by them instead of {before}."
         )
     if not found and lasting:
-        return f"{beyond}No cause of the library explains it. {errors.words()}"
+        return f"{beyond}No cause of the library explains it. {errors.words(causes=False)}"
     if not found:
         met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.named)} %."
         if errors.foretells_nothing:
@@ -221,7 +224,8 @@ def headline(
             )
         return f"Nothing is missing beyond friction and rotors of the joints. {met}"
     if errors.no_answer and not main and not lasting:
-        return f"Nothing that helps elsewhere is missing beyond friction and rotors of the joints. {errors.words()}"
+        nothing = "Nothing that helps elsewhere is missing beyond friction and rotors of the joints"
+        return f"{nothing}. {errors.words(causes=False)}"
     told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
     of_what = (" of what friction and rotors leave", *[""] * len(told))
     if errors.no_answer:
@@ -230,7 +234,7 @@ def headline(
     causes = "; ".join(
         f"{clause(c)}{_worth(c.share, of_what[n])}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
     )
-    unnamed = f"Masses of the links that are off without a name add {percent(errors.by_masses)}"
+    unnamed = f"{MASSES_OFF} that are off without a name add {percent(errors.by_masses)}"
     if masses_lead(found, errors):
         first = f"{unnamed}{of_what[0]}; corrected.urdf has them as fitted. {likeliest}"
         return f"{first}{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
@@ -247,6 +251,16 @@ def apart_where_useless(found: Sequence[FoundCause], errors: HeldOutErrors) -> l
     """Causes that all together are hardly worth anything and foretell nothing are apart from the story."""
     little = sum(cause.share for cause in found if not cause.minor) < HELD_OUT.little_share
     return [replace(cause, minor=True) if little and errors.useless else cause for cause in found]
+
+
+def doubted_beside(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -> list[FoundCause]:
+    """Causes with a doubt on each at whose joint more lasts without a law than it says itself."""
+    rms = {f"joint {each.joint + 1}": each.rms for each in lasting}
+    told = "More than it says lasts at this joint and has no law: it may stand for a part of that."
+    return [
+        replace(cause, doubt=f"{cause.doubt} {told}".lstrip()) if rms.get(cause.joint, 0.0) > cause.rms else cause
+        for cause in found
+    ]
 
 
 def _told(found: Sequence[FoundCause]) -> list[FoundCause]:

@@ -29,6 +29,9 @@ Driver = tuple[str, int]
 Map = tuple[str, Array]
 """What it follows in words, and its columns (K, c)."""
 
+LASTS = "something lasts that has no law here"
+"""How a sentence on it begins."""
+
 
 @dataclass(frozen=True)
 class LastingTorque:
@@ -184,7 +187,7 @@ def lasting_words(lasting: Sequence[LastingTorque]) -> str:
         f"{percent(each.of_torque)} of the torque of joint {each.joint + 1}, following the {each.driver}"
         for each in lasting
     ]
-    return f"something lasts that has no law here: {'; '.join(told)}"
+    return f"{LASTS}: {'; '.join(told)}"
 
 
 def told_of_lasting(lasting: Sequence[LastingTorque]) -> list[Notice]:

@@ -6,6 +6,8 @@ of a joint's torque, nothing but that moment tells a delay of all torque. So no 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from armscope.core.numerals import rounded
@@ -14,6 +16,7 @@ from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.space import OF_REVERSALS
 from armscope.motion.library import catalogue
+from armscope.motion.summary.constants import NAMING
 from armscope.motion.summary.intervals import Sureness, level_of_gains
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.schema import Notice
@@ -32,7 +35,8 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
     layout, best = selected.rows.layout, _with_turns_free(selected)
     delays = [layout.placed[n] for n in selected.best.candidates if layout.placed[n].cause is catalogue.DELAY]
     named = {joint for delay in delays for joint in delay.joints}
-    told, level = [], level_of_gains(layout)
+    told: list[tuple[int, float, float]] = []
+    level = level_of_gains(layout)
     for j, column in enumerate(layout.reversals[:, -1]):
         dry = selected.dry[j]
         if j in named or dry <= 0:
@@ -42,15 +46,35 @@ def told_late(selected: SelectedCauses, sure: Sureness) -> list[Notice]:
         apart = np.sqrt(max((sure.factor[column] * error) ** 2 - (level * slope) ** 2, error**2))
         late, unsure = slope / dry, INTERVAL * apart / dry
         if abs(late) - unsure > PRIOR.turning_s and (late > 0 or not _stands(selected, j)):
-            told.append(f"joint {j + 1} {rounded(1e3 * late)} ± {rounded(1e3 * unsure)} ms")
+            told.append((j, late, unsure))
     if not told:
         return []
+    each = [f"joint {j + 1} {rounded(1e3 * late)} ± {rounded(1e3 * unsure)} ms" for j, late, unsure in told]
     text = (
-        f"Friction changes sides later than the speed: {', '.join(told)} (below zero: sooner). It clings over a way, "
+        f"Friction changes sides later than the speed: {', '.join(each)} (below zero: sooner). It clings over a way, "
         "or torque is recorded so late (a delay); where friction is most of a joint's torque, motion does not tell "
-        "which: turn it to and fro at two speeds."
+        f"which: turn it to and fro at two speeds.{latest_in_words(told)}"
     )
     return [Notice("late friction", text)]
+
+
+def latest_in_words(told: Sequence[tuple[int, float, float]]) -> str:
+    """That one of several joints is later than all others by more than friction differs: its torque may be late.
+
+    Args:
+        told: joints (from 0), by how much each is late, and within what, s.
+
+    Returns:
+        A sentence with a space before it, or nothing.
+    """
+    if len(told) < 2:
+        return ""
+    next_to, latest = sorted(told, key=lambda each: each[1])[-2:]
+    by = latest[1] - next_to[1]
+    if latest[1] > PRIOR.longest_turning_s or by <= max(NAMING.later_than_all_s, latest[2] + next_to[2]):
+        return ""
+    joint = f"joint {latest[0] + 1}"
+    return f" By {rounded(1e3 * by)} ms {joint} is later than any other: see whether its torque is recorded later."
 
 
 def _with_turns_free(selected: SelectedCauses) -> Hypothesis:

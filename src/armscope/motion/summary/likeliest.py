@@ -5,6 +5,7 @@ from __future__ import annotations
 from armscope.core.numerals import size_of
 from armscope.core.words import enumerated
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.summary.constants import NAMING
 from armscope.motion.summary.judgement import title
 from armscope.motion.summary.names_of_masses import NameOfMasses, likely_names
 from armscope.verdict.counting import odds_in_words
@@ -26,13 +27,15 @@ def likeliest_in_words(selected: SelectedCauses) -> str:
     told, why = [_in_words(each) for each in names], _not_told(names[0].nats)
     if len(told) == 1:
         return f"The likeliest name, {why}: {told[0]}. "
-    return f"The likeliest names, of which these rows tell none from the next ({why}): {enumerated(told, 'or')}. "
+    return f"The likeliest names, of which these rows tell none from the next, {why}: {enumerated(told, 'or')}. "
 
 
 def _in_words(name: NameOfMasses) -> str:
-    """A name with its numbers."""
+    """A name with its numbers, where these are few enough to be read in a sentence."""
     layout = name.selected.rows.layout
     placed, values = layout.placed[name.number], name.selected.coefficients[layout.columns[name.number]]
+    if len(values) > NAMING.numbers_in_a_sentence:
+        return title(placed)
     told = zip(placed.parameters, values, strict=True)
     sizes = ", ".join(f"{each.replace('_', ' ')} {size_of(value, unit, sign=True)}" for (each, unit), value in told)
     return f"{title(placed)}, {sizes}"

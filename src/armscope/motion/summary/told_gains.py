@@ -23,10 +23,11 @@ from armscope.motion.fitting.space import OF_MASSES
 from armscope.motion.library import catalogue
 from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import TorqueLayout
-from armscope.motion.summary.constants import NAMING
+from armscope.motion.summary.constants import HELD_OUT, NAMING
 from armscope.motion.summary.doubts import determined
 from armscope.motion.summary.intervals import sureness
 from armscope.motion.summary.judgement import cause_parameters
+from armscope.motion.verdict import MotionVerdict
 from armscope.verdict.schema import Notice
 from armscope.verdict.wording import capitalised
 
@@ -134,6 +135,12 @@ def told_gains(selected: SelectedCauses) -> list[Notice]:
         f"{factors_in_words(gains, layout.with_gains)}"
     )
     return [Notice(FITTED_GAINS, text)]
+
+
+def rests_on_gains(verdict: MotionVerdict) -> bool:
+    """Whether gains without a name, and no masses beside them, mend clearly more than friction and rotors do alone."""
+    before, along = (verdict.waterfall[0], *verdict.waterfall[1:2], verdict.waterfall[0])[:2]
+    return "masses" not in along.label and along.held_out < HELD_OUT.clearly_better * before.held_out
 
 
 def factors_in_words(gains: Array, by_currents: bool = True) -> str:

@@ -10,8 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.core.numerals import rounded
 from armscope.core.types import Array
 from armscope.motion.fitting.selected import SelectedCauses
+from armscope.motion.library.clauses import run_in_words
 from armscope.motion.summary.constants import LASTING, WANDERING
 from armscope.motion.summary.lasting import LastingTorque, left_by_friction
 
@@ -39,7 +41,10 @@ def wandering_torques(selected: SelectedCauses) -> tuple[LastingTorque, ...]:
         share = power / max(float(np.mean(before[which, j] ** 2)), 1e-300)
         of_torque = float(np.sqrt(power)) / max(torque, 1e-300)
         if share > WANDERING.share and of_torque > WANDERING.of_torque:
-            found.append(LastingTorque(j, DRIVER, float(np.sqrt(power)), of_torque, share))
+            most = _most(selected.residuals[which, j], spells, rows.run[which])
+            unit = "N" if rows.layout.arm.sliding[j] else "N m"
+            driver = f"{DRIVER}, by up to {rounded(most[0])} {unit}{most[1]}"
+            found.append(LastingTorque(j, driver, float(np.sqrt(power)), of_torque, share))
     return tuple(sorted(found, key=lambda each: -each.share))
 
 
@@ -58,6 +63,14 @@ def slow_power(left: Array, spell: NDArray[np.intp]) -> float:
     free = np.maximum(np.sum(count - 1), 1)
     within = float(np.sum((left - mean[spell]) ** 2)) / free
     return max(float(np.sum(count * mean**2) - len(count) * within) / len(left), 0.0)
+
+
+def _most(left: Array, spell: NDArray[np.intp], run: NDArray[np.str_]) -> tuple[float, str]:
+    """By how much a spell is off at most, and in which run in words, where there are several."""
+    mean = np.bincount(spell, left) / np.bincount(spell)
+    most = int(np.argmax(np.abs(mean)))
+    where = f" in {run_in_words(str(run[np.argmax(spell == most)]))}" if len(set(run.tolist())) > 1 else ""
+    return float(abs(mean[most])), where
 
 
 def _numbered(run: NDArray[np.str_], time: Array) -> NDArray[np.intp]:

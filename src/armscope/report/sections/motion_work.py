@@ -16,6 +16,8 @@ from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.entering import Entered
+from armscope.motion.summary.judgement import MASSES_OFF
+from armscope.motion.summary.lasting import LASTS
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
 from armscope.report.motion_subject import MotionSubject
@@ -62,6 +64,7 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     minor = [each for each in verdict.effects if each.minor]
     told = main + list(_paying(minor, expected_after, expected_after[main[-1].title] if main else with_masses.whole))
     apart = along and not any(_is_in_bodies(each) for each in told)
+    apart = apart and bool(told or subject.gains_fitted or MASSES_OFF in verdict.headline)
     apart = apart and (not told or pays(*(step.held_out for step in verdict.waterfall[:2])))
     tasks = []
     for number, cause in enumerate(told, start=1):
@@ -86,6 +89,8 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         "gains": capitalised(subject.gains_fitted) if along else "",
         "of_gains": subject.found.selected.rows.layout.of_gains,
         "minor": [cause.title for cause in minor if cause not in told],
+        "lasts": verdict.unexplained.description if LASTS in verdict.unexplained.description else "",
+        "links": [motion_card(each, "") for side in verdict.links for each in side.causes if not each.minor],
         "now": error_in_words(held_out.stated),
         "background": error_in_words(background.whole),
         "model": error_in_words(held_out.model),
