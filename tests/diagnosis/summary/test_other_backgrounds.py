@@ -43,10 +43,10 @@ def test_a_compliance_that_another_could_be_is_not_claimed_for_one_joint(seed: i
 
 
 def test_its_interval_owns_what_springs_elsewhere_might_do(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Seed 1 had the name of a bearing here, which is stiff, as seeds 2 and 6; they have a drive's now, 1.9 times."""
-    (owned,) = found_where_only_two_joints_move(4)
+    """Seed 4 had joint 4 here, seven times too soft; it has no name now, all give way a little."""
+    (owned,) = found_where_only_two_joints_move(5)
     monkeypatch.setattr(judgement, "doubts", lambda search, best: {})
-    (sure,) = found_where_only_two_joints_move.__wrapped__(4)  # anew, without the doubts
+    (sure,) = found_where_only_two_joints_move.__wrapped__(5)  # anew, without the doubts
     assert owned.parameters[0].value == sure.parameters[0].value
     assert owned.parameters[0].stderr > 2 * sure.parameters[0].stderr
 
