@@ -49,7 +49,7 @@ def test_that_it_is_another_model_of_the_arm_comes_before_any_cause():
 def test_many_effects_are_counted_not_recited():
     sentence = headline(verdicts.five().verdict)
     assert sentence.startswith("Joint 2 gives way")
-    assert "One smaller cause (0.4 %); small errors of geometry in the whole arm" in sentence
+    assert "Two smaller causes (7.4 %); small errors of geometry in the whole arm" in sentence
     assert "joint 6" not in sentence, "minor effects are no part of the story"
 
 

@@ -139,8 +139,7 @@ def _place_beams(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
         return
     scene = Scene(arm, recordings)
     for j in range(1, arm.n_joints + 1):
-        step = arm.before[j - 1] if arm.links_come_first else arm.behind[j - 1]
-        if np.linalg.norm(step[:3, 3]) < FORM.shortest_beam_m:
+        if np.linalg.norm(arm.step_along(j)[:3, 3]) < FORM.shortest_beam_m:
             continue
         flexibility = term(
             "flexibility",

@@ -211,7 +211,7 @@ class LoadedArm(ABC):
 
     def beam(self, link: int) -> Array:
         """(3,) the step along row ``link``, in the axes of `beam_site`, m."""
-        step = self.arm.before[link - 1] if self.arm.links_come_first else self.arm.behind[link - 1]
+        step = self.arm.step_along(link)
         along: Array = step[:3, :3].T @ step[:3, 3]
         return along
 
@@ -244,7 +244,7 @@ class LoadedArm(ABC):
         heavier = 1.0 if self.misstated.masses is None else 1 + self.misstated.masses[body - 1]
         weights, moments = weight_of_link(self.arm, self.loaded, body)
         own = np.broadcast_to(heavier * weights[body - 1], force.shape)
-        step = self.arm.before[link - 1] if self.arm.links_come_first else self.arm.behind[link - 1]
+        step = self.arm.step_along(link)
         centre = step[:3, :3].T @ (self.arm.centres[body - 1] - step[:3, 3])
         if self.arm.links_come_first:
             return own, centre, force, moment

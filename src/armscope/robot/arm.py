@@ -105,6 +105,10 @@ class Arm(InWords):
         """Whether link j stands before joint j, as in modified rows and in a URDF; else behind it."""
         return self.is_modified_dh or self.description.dh is None
 
+    def step_along(self, link: int) -> Array:
+        """(4, 4) the fixed step along a link (from 1), from the frame where it begins, m."""
+        return np.asarray((self.before if self.links_come_first else self.behind)[link - 1])
+
     @functools.cached_property
     def reach(self) -> float:
         """An upper bound of the distance of the tool from the base's origin, m."""

@@ -99,7 +99,7 @@ class OrderRules(Constants):
 class WordingRules(Constants):
     """What is told in words, and how surely."""
 
-    causes: int = constant(4, "in a headline; more are counted, not told", "judgement: as many are kept in mind")
+    causes: int = constant(3, "in a headline; more are counted, not told", "judgement: as many are kept in mind")
     places: int = constant(4, "in a sentence; more are counted, not told", "judgement: as many are read")
     rivals: int = constant(2, "of a cause that a task tells: the nearest", "judgement: as many are looked for")
     told_first: float = constant(

@@ -41,7 +41,7 @@ class TellingRules(Constants):
     another_payload_nats: float = constant(
         1.1,
         "evidence, without a name's price, from which rows would rather have another payload",
-        "convention: odds of three to one are positive evidence (Kass and Raftery 1995)",
+        "convention: odds of three to one are positive evidence (Kass and Raftery 1995); with other arms in view",
         unit="nats",
     )
     runs_round: float = constant(

@@ -139,7 +139,7 @@ def _tilt_that_runs_round(values: Array) -> Array:
 
 
 _ROUND = 0.5 * np.array([[[1, 0, 0, 1], [0, -1, 1, 0]], [[1, 0, 0, -1], [0, 1, 1, 0]]])
-"""(cosine, sine) about x and about y as (x, y) of what turns against the joint and of what turns with it."""
+"""(cosine, sine) about x and about y as (x, y) of what turns with the joint and of what turns against it."""
 
 
 def _runs_round(values: Array, covariance: Array) -> bool:
