@@ -89,19 +89,44 @@ def problem_where(kind: str, alike: float) -> Problem:
     return build_problem(space, NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(len(y))), 0.05)
 
 
+def problem_of_a_turned_link() -> Problem:
+    """A wobble that is what a link and a zero do together, and as much of another kind of effect."""
+    rng = np.random.default_rng(7)
+    X = rng.normal(size=(200, 9))
+    X[:, 2] = 0.7 * X[:, 3] - 0.7 * X[:, 6] + 1e-3 * X[:, 2]
+    y = 0.3 * X[:, 2] + rng.normal(0, 0.02, len(X))
+    at = np.array([2]), np.arange(3, 6), np.array([6]), np.array([7])
+    kinds = (
+        ("axis_wobble", "joint 4"),
+        ("link_geometry", "link 4"),
+        ("joint_offset", "joint 5"),
+        ("gear_ratio", "joint 1"),
+    )
+    candidates = tuple(Candidate(*key, columns, np.ones(len(columns))) for key, columns in zip(kinds, at, strict=True))
+    space = ModelSpace(np.arange(2), (), candidates)
+    return build_problem(space, NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(len(y))), 0.01)
+
+
 def named_alone(problem: Problem) -> Hypothesis:
     """The effect by itself, at the size that suits it best."""
     sized = [evaluate(problem, (SelectedEffect(EFFECT, n),), (), 0.1) for n in range(len(problem.sizes))]
     return max(sized, key=lambda hypothesis: hypothesis.log_posterior)
 
 
-@pytest.mark.parametrize("kind", ["bearing_compliance", "axis_wobble", "link_bending"])
+@pytest.mark.parametrize("kind", ["bearing_compliance", "axis_wobble", "link_bending", "instrument_scale"])
 def test_the_link_whose_rows_say_the_same_has_the_name_though_it_pays_for_more_numbers(kind: str) -> None:
     problem = problem_where(kind, 0.9999)
     alone = named_alone(problem)
     found = as_plain_geometry(Search.on(problem), alone)
     assert found.candidates == {LINK}
     assert found.log_posterior < alone.log_posterior
+
+
+def test_a_wobble_that_turns_with_its_joint_is_a_twisted_link_and_the_next_zero() -> None:
+    """A sound bearing was to be replaced: link 4 was twisted, and the zero of joint 5 off, which is the same."""
+    problem = problem_of_a_turned_link()
+    found = as_plain_geometry(Search.on(problem), named_alone(problem))
+    assert found.candidates == {1, 2}
 
 
 @pytest.mark.parametrize("alike", [0.0, 0.9])

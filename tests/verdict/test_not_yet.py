@@ -51,3 +51,16 @@ def test_a_model_that_is_base_and_tool_alone_is_not_worse_than_they_are_by_round
     assert not makes_worse(same)
     worse = replace(same, residual_after_mm=1.01 * before, held_out=replace(same.held_out, after=1.2 * before))
     assert makes_worse(worse)
+
+
+def test_scatter_alone_makes_nothing_worse_and_says_what_to_record() -> None:
+    """Play of which nobody wrote down the side: "change nothing" stood in place of "write down the side"."""
+    loose = replace(
+        verdicts.found("unknown", "joint 2", verdicts.Parameter("scatter", "rad", 8e-4, 1e-5)), cure="Write the side."
+    )
+    verdict = verdicts.case(effects=(loose,), held_out=HeldOut(0.46, 0.52)).verdict
+    verdict = replace(verdict, background=replace(verdict.background, present=False))
+    assert not makes_worse(verdict)
+    beside = diagnosed(6.8)
+    told = curing_only_what_helps(replace(beside, effects=(*beside.effects, loose)))
+    assert [effect.cure == NOT_YET for effect in told.effects] == [True, True, False]

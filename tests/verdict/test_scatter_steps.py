@@ -8,7 +8,7 @@ from armscope.report.sections.effects import EFFECTS
 from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
 from armscope.verdict.effects import Parameter
-from armscope.verdict.scatter_steps import LOWERS_NOTHING, finding_out, scatters
+from armscope.verdict.scatter_steps import LOWERS_NOTHING, finding_out
 from armscope.verdict.tasks import FIND_OUT
 from armscope.verdict.work_order import work_order
 from tests.report import verdicts
@@ -52,8 +52,8 @@ def test_it_comes_after_what_pays_and_before_what_stands_in_its_place() -> None:
 
 
 def test_only_scatter_is_to_be_found_out() -> None:
-    assert scatters(SCATTER)
-    assert not scatters(OFFSET)
+    assert SCATTER.scatters
+    assert not OFFSET.scatters
     case = verdicts.case(effects=(OFFSET,))
     tasks = work_order(case.verdict, contributions(case.verdict)).tasks
     assert finding_out(tasks, case.verdict, 0.1) == []

@@ -147,6 +147,11 @@ class GravityRules(Constants):
         unit="rad",
     )
     azimuths: int = constant(8, "to which each lean is tried", "judgement: every 45 degrees", unit="sides")
+    as_good: float = constant(
+        1.05,
+        "times the error along the stated direction, up to which another is used that the check of the table asks for",
+        "judgement: springs that push foretell as well as those that give way along gravity turned round",
+    )
     close_rad: float = constant(
         1e-3, "at which the search ends", "derived: far below the intervals that it gives", unit="rad"
     )

@@ -38,6 +38,13 @@ class RowSplit:
     fold: Indices
     grouped_by: str
 
+    def within_runs(self) -> RowSplit:
+        """The same blocks with a part of every run in each fold, where runs have several blocks."""
+        runs, pieces = np.unique(self.fold, return_counts=True)
+        if self.grouped_by != "run" or pieces.min() < 2:
+            return self
+        return RowSplit(self.of_row, np.tile(np.arange(pieces[0]) % FOLDING.folds, len(runs)), "configuration")
+
 
 def split_rows(recordings: Recordings, rng: np.random.Generator) -> RowSplit:
     """Blocks of whole configurations (targets and repeats of one pose stay together), folds of whole runs if several.

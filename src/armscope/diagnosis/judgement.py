@@ -49,9 +49,10 @@ from armscope.fitting.block_sums import normal_equations_by_block
 from armscope.fitting.discrepancy import model_error
 from armscope.fitting.refit import Refit
 from armscope.inference.detection import averaged_log_odds
-from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.normal_equations import NormalEquations, steadied
 from armscope.inference.search import Search
 from armscope.inference.shapley import shares
+from armscope.physics.drift import BASE_SHIFT
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.importance import with_importance
@@ -168,12 +169,14 @@ def _validated(
     """Errors on held-out rows, and the waterfall in the order of the shares.
 
     Play of which nobody wrote down the side is fitted beside all else from the first step on, and foretells nothing.
+    Where a base is told to have jumped, runs are not held out whole: their bases would be placed anew on their rows,
+    and the error without any cure would be one without the jump.
     """
     progress("validating on held-out rows", 0.75)
+    jumped = any(part.placed.effect is BASE_SHIFT for part in state.fit.model.parts)
+    split = state.split.within_runs() if jumped else state.split
     rows = LinearisedRows(state.point, state.table, state.fit.weights, state.space.layout, columns_of_untold(state))
-    told, (nothing, *steps) = cross_validate(
-        state.problem, state.blocks, state.split, state.best, [*untold, *order], rows
-    )
+    told, (nothing, *steps) = cross_validate(state.problem, state.blocks, split, state.best, [*untold, *order], rows)
     return told, (nothing, *steps[len(untold) :])
 
 
@@ -207,11 +210,12 @@ def _plain_equations(state: DiagnosisState) -> NormalEquations:
     """The fit's sums over the points as they were measured: without whitening and orientations."""
     fit = state.fit
     if fit.weights.is_plain:
-        return fit.equations
+        return steadied(fit.equations, fit.layout.frames)
     one_block = np.zeros(len(state.recordings), dtype=np.intp)
-    return normal_equations_by_block(
+    (plain,) = normal_equations_by_block(
         fit.layout, fit.model, state.table, fit.weights.of_reference.unwhitened, one_block
-    )[0]
+    )
+    return steadied(plain, fit.layout.frames)
 
 
 def _shares(fit: Refit, equations: NormalEquations) -> tuple[list[float], list[float]]:

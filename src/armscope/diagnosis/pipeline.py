@@ -12,7 +12,9 @@ from armscope.check.constants import TABLE
 from armscope.check.orientations import trusted_channels
 from armscope.check.preconditions import as_notices, check_table, too_far
 from armscope.check.report import what_forbids
+from armscope.check.suspicion import GRAVITY
 from armscope.core.types import Progress, unheard
+from armscope.diagnosis.constants import GRAVITY as DIRECTION
 from armscope.diagnosis.constants import LOOP
 from armscope.diagnosis.gravity_direction import GravityEstimate, estimate_gravity_direction
 from armscope.diagnosis.held_out import split_rows
@@ -116,10 +118,12 @@ def diagnose(
     if settings.estimate_gravity:
         known = _along(known, _gravity(start, table, noise, tool_per_run))
     verdict = _judged(known, settings, progress)
-    beaten = None if settings.estimate_gravity else better_than_a_name(verdict)
-    if beaten is not None and (found := estimate_gravity_direction(start, table, noise, tool_per_run)) is not None:
+    beaten, doubted = better_than_a_name(verdict), any(each.kind == GRAVITY for each in problems)
+    again = (doubted or beaten is not None) and not settings.estimate_gravity
+    if again and (found := estimate_gravity_direction(start, table, noise, tool_per_run)) is not None:
         progress("gravity leans: once more along it", 0.02)
-        verdict = _better_of(verdict, _judged(_along(known, _leaning(found, beaten)), settings, progress))
+        leaning = _judged(_along(known, _leaning(found, beaten)), settings, progress)
+        verdict = _better_of(verdict, leaning, DIRECTION.as_good if doubted else 1.0)
     progress("done", 1.0)
     return verdict.after(time.perf_counter() - started, vars(settings))
 
@@ -154,13 +158,16 @@ def _along(known: _Prepared, gravity: tuple[Arm, list[Notice]]) -> _Prepared:
     return replace(known, start=replace(known.start, arm=arm), notices=(*known.notices, *told))
 
 
-def _better_of(stated: Diagnosis, leaning: Diagnosis) -> Diagnosis:
-    """The verdict along gravity that leans, where rows that took no part are met no worse by it; all, if none were."""
+def _better_of(stated: Diagnosis, leaning: Diagnosis, as_good: float = 1.0) -> Diagnosis:
+    """The verdict along gravity that leans, where rows that took no part are met as well by it; all, if none were.
+
+    Springs that may push foretell along the stated direction what real ones do along another.
+    """
     before, after = (
         each.held_out.after if np.isfinite(each.held_out.after) else each.residual_after_mm
         for each in (stated, leaning)
     )
-    return leaning if after <= before else stated
+    return leaning if after <= as_good * before else stated
 
 
 def _of_type(arm: Arm) -> list[Notice]:
@@ -214,13 +221,14 @@ def _estimated(found: GravityEstimate) -> Notice:
     return Notice("gravity estimated", text)
 
 
-def _leaning(found: GravityEstimate, beaten: FoundEffect) -> tuple[Arm, list[Notice]]:
+def _leaning(found: GravityEstimate, beaten: FoundEffect | None) -> tuple[Arm, list[Notice]]:
     """The arm along gravity that leans though nobody asked, and why."""
-    instead = f"{effect_in_words(beaten.effect, beaten.location)} would be named"
+    name = "springs that push" if beaten is None else effect_in_words(beaten.effect, beaten.location)
     text = (
         f"The arm gives way to gravity that leans by {np.degrees(found.angle):.1f} degrees from where it is stated; "
-        f"along the stated one {instead}, and the rows speak against that. The estimated direction was used: see "
-        "whether the base stands level; level it, or state `gravity_m_s2`, before anything else is changed."
+        f"along the stated one {name} would be named, and the rows speak against that. The estimated direction was "
+        "used: see whether the base stands level, and how it is mounted; level it, or state gravity_m_s2, before "
+        "anything else is changed."
     )
     return found.arm, [Notice("gravity", text), _estimated(found)]
 

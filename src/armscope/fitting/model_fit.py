@@ -13,7 +13,7 @@ from armscope.fitting.constants import STEPS
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic
 from armscope.fitting.linearisation import Measured, linearised, residuals
 from armscope.fitting.parameter_layout import ParameterLayout, current_parameters
-from armscope.inference.normal_equations import NormalEquations
+from armscope.inference.normal_equations import NormalEquations, steadied
 from armscope.measurement import robust
 from armscope.measurement.channel import ChannelResiduals, retracted
 from armscope.measurement.row_weights import RowWeights
@@ -69,7 +69,7 @@ class ModelFit(NonlinearProblem[FittedModel, ChannelResiduals]):
         noise = self.noise or robust.scale_of(residual.points_mm)
         self.precision = self.prior(self.equations)
         self.solved = solved = Quadratic(
-            self.equations.G + np.diag(noise**2 * self.precision),
+            steadied(self.equations, self.parts.frames).G + np.diag(noise**2 * self.precision),
             self.equations.b,
             current_parameters(self.parts, state),
         )

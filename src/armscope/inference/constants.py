@@ -123,6 +123,11 @@ class Numerics(Constants):
         "share of a column beyond the frames below which it is scaled as if this share were left",
         "judgement: what frames absorb all but is not blown up",
     )
+    cancelling: float = constant(
+        3e-3,
+        "RMS at the tool of frames that move against each other, as a share of each one's, below which they are held",
+        "judgement: the axes of a planar arm are parallel to some milliradians",
+    )
     noise_steps: int = constant(3, "of the noise's own estimate", "judgement: time", unit="steps")
     noise_settled: float = constant(
         3e-3, "relative change of the noise at which its estimate ends", "judgement: far below what any evidence feels"

@@ -67,6 +67,30 @@ def weighted_total(blocks: Sequence[NormalEquations], times: Indices) -> NormalE
     return NormalEquations(G, b, float(yy), float(n))
 
 
+def steadied(equations: NormalEquations, frames: Indices) -> NormalEquations:
+    """The same with frames held where they stand along directions in which their columns all but cancel.
+
+    A planar arm's rows tell the tool's height from the base's by nothing but its own small errors; without this, frames
+    that move by metres against each other take up a millimetre of anything.
+
+    Args:
+        equations: sums over rows.
+        frames: columns of the free frames.
+
+    Returns:
+        The sums; the given ones where no direction cancels.
+    """
+    G = equations.G[np.ix_(frames, frames)]
+    size = np.sqrt(np.maximum(G.diagonal(), 1e-300))
+    share, directions = np.linalg.eigh(G / np.outer(size, size))
+    cancelling = directions[:, share < NUMERICS.cancelling**2]
+    if not cancelling.shape[1]:
+        return equations
+    held = equations.G.copy()
+    held[np.ix_(frames, frames)] += np.outer(size, size) * (cancelling @ cancelling.T)
+    return NormalEquations(held, equations.b, equations.yy, equations.n)
+
+
 def column_scales(equations: NormalEquations, frames: Indices) -> Array:
     """(p,) RMS per axis at the tool of each column beyond what the free frames absorb, mm per SI unit."""
     Gf = equations.G[np.ix_(frames, frames)]

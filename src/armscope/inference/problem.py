@@ -16,7 +16,7 @@ import numpy as np
 from armscope.core.types import Array, Indices
 from armscope.inference.constants import PRIORS
 from armscope.inference.model_space import BackgroundSizes, ModelSpace
-from armscope.inference.normal_equations import NormalEquations, column_scales
+from armscope.inference.normal_equations import NormalEquations, column_scales, steadied
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Problem:
 
     def with_equations(self, equations: NormalEquations) -> Problem:
         """The same problem on other rows; ``equations`` is unscaled."""
-        return replace(self, equations=equations.scaled(self.scale))
+        return replace(self, equations=steadied(equations, self.space.frames).scaled(self.scale))
 
     def holding(self, columns: Indices) -> Problem:
         """The same problem with some columns at zero in every background."""
@@ -117,6 +117,7 @@ def build_problem(space: ModelSpace, equations: NormalEquations, least_noise: fl
     Returns:
         The problem, its columns scaled to the size that they have at the tool.
     """
+    equations = steadied(equations, space.frames)
     scale = column_scales(equations, space.frames)
     scaled = equations.scaled(scale)
     freedom = max(equations.n - len(space.frames), 1.0)

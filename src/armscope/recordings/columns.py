@@ -88,7 +88,12 @@ COLUMNS = (
         for axis in "xyz"
     ),
     Column("id", "", "name of the configuration, once per run and target; the row's number where there is none"),
-    Column("run", "", "name of the session: the base frame is free in each run, and held-out folds go by it"),
+    Column(
+        "run",
+        "",
+        "name of the session: runs whose bases agree to some millimetres stand on one base, and a jump between them "
+        "is told; others have a base each. Held-out folds go by it where no base jumped",
+    ),
     Column("target", "", "which reflector was measured: the tool point is free for each"),
     Column("qw", "", _TURN.format(part="real part"), -LONGEST_UNIT, LONGEST_UNIT, "a quaternion has length 1"),
     *(

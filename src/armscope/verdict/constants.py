@@ -153,6 +153,11 @@ class WordingRules(Constants):
     sure: float = constant(
         5.0, "standard errors from zero at which a value is no open one", "judgement: one chance in two million"
     )
+    left_open: float = constant(
+        10.0,
+        "times as far as its effect moves the tool, from which a value's standard error would move it, it is not told",
+        "judgement: other values take it back in these poses",
+    )
     reliable: float = constant(
         0.5, "share of resampled tables below which an effect that is chosen is not to be relied on", "convention: most"
     )

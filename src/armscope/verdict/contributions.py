@@ -18,6 +18,7 @@ from armscope.core.location import Location
 from armscope.core.rotations import turn_onto
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
+from armscope.inference.constants import NUMERICS
 from armscope.physics.backgrounds import DRIFT, GEOMETRIC
 from armscope.physics.effect import AXES, Direction, Driver, Part
 from armscope.physics.elastic import UNKNOWN_MASSES, drive
@@ -262,7 +263,7 @@ def _frames(verdict: Diagnosis, posture: Posture) -> Array:
     X = np.stack([column.reshape(-1) for column in columns], axis=1)
     scale = np.linalg.norm(X, axis=0)
     left, size, _ = np.linalg.svd(X[:, scale > 0] / scale[scale > 0], full_matrices=False)
-    return np.asarray(left[:, size > 1e-9 * size[0]])
+    return np.asarray(left[:, size > NUMERICS.cancelling])
 
 
 def parts_of(verdict: Diagnosis) -> dict[int, tuple[Part, ...]]:

@@ -20,7 +20,7 @@ from armscope.verdict.constants import ORDER
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.entries import entry_decimals
-from armscope.verdict.wording import beyond_arms, implausible
+from armscope.verdict.untold import beyond_arms, untold
 
 NUMBERS = {
     "a_mm": ("a", "a"), "alpha_deg": ("alpha", "α"), "d_mm": ("d", "d"),
@@ -41,7 +41,7 @@ def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
     rows, open_ = [], {each.location for each in unsettled(verdict)}
     for j in range(1, verdict.model.arm.n_motors + 1):
         found = [p for e in _settled(verdict) if e.effect in SETS_A_ZERO and e.location == f"joint {j}"
-                 for p in e.parameters if p.name == SETS_A_ZERO[e.effect] and not implausible(p, e)]  # fmt: skip
+                 for p in e.parameters if p.name == SETS_A_ZERO[e.effect] and not untold(p, e)]  # fmt: skip
         value = sum(p.value for p in found)
         half = INTERVAL * math.hypot(*(p.stderr for p in found)) if found else float("nan")
         rows.append(
@@ -104,7 +104,7 @@ def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     rows = []
     for j, stated in enumerate(dh.joints, start=1):
         found = {p.name: p for e in _settled(verdict) if (e.effect, e.location) == (LINK_GEOMETRY.name, f"link {j}")
-                 for p in e.parameters if not implausible(p, e)}  # fmt: skip
+                 for p in e.parameters if not untold(p, e)}  # fmt: skip
         row: dict[str, object] = {"row": j, "convention": dh.convention}
         for name, (key, _) in NUMBERS.items():
             value, step = getattr(stated, name), found[key].value if key in found else 0.0
@@ -202,7 +202,7 @@ def corrected_origin(arm: Arm, effect: FoundEffect, joint: int) -> Array:
     Returns:
         The origin as the file states it, moved by the errors.
     """
-    told = {p.name: p.value for p in effect.parameters if not implausible(p, effect)}
+    told = {p.name: p.value for p in effect.parameters if not untold(p, effect)}
     errors = np.array([told.get(axis, 0.0) for axis in AXES]) * np.array([1e-3, 1e-3, 1e-3, 1, 1, 1])
     turned = errors[3:] if np.abs(errors[3:]).max() > ORDER.turned_origin_rad else np.zeros(3)
     moved = np.eye(4)

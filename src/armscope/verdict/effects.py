@@ -155,6 +155,11 @@ class FoundEffect:
         return bool(sizes) and all(low <= 0 <= high for low, high in (p.interval for p in sizes))
 
     @property
+    def scatters(self) -> bool:
+        """Whether it is a joint that stands elsewhere from row to row, which no model foretells."""
+        return any(p.name == "scatter" for p in self.parameters)
+
+    @property
     def rarely_chosen(self) -> bool:
         """Whether most tables of the same rows drawn anew do without it."""
         return self.inclusion is not None and self.inclusion < WORDS.reliable

@@ -15,8 +15,13 @@ NOT_YET = (
 
 
 def curing_only_what_helps(verdict: Diagnosis) -> Diagnosis:
-    """The verdict; without any cause's or effect's cure where its model makes the error larger."""
+    """The verdict; without any cause's or effect's cure where its model makes the error larger.
+
+    What scatters keeps its own: it changes nothing but what is recorded, and no model foretells scatter anyway.
+    """
     if not makes_worse(verdict):
         return verdict
-    causes = tuple(replace(cause, cure=NOT_YET) for cause in verdict.causes)
-    return replace(verdict, causes=causes, effects=tuple(replace(e, cure=NOT_YET) for e in verdict.effects))
+    loose = {each.as_member for each in verdict.effects if each.scatters}
+    causes = tuple(each if loose.issuperset(each.members) else replace(each, cure=NOT_YET) for each in verdict.causes)
+    effects = tuple(each if each.scatters else replace(each, cure=NOT_YET) for each in verdict.effects)
+    return replace(verdict, causes=causes, effects=effects)

@@ -12,7 +12,7 @@ ABOVE_NOISE = "residual above "
 def still_open(verdict: Verdict) -> str:
     """What remains where not all is explained, beside what noise alone would leave; a clause."""
     left, noise = verdict.residual_after_mm, verdict.noise_mm
-    named = any(p.name == "scatter" for effect in verdict.effects for p in effect.parameters)
+    named = any(effect.scatters for effect in verdict.effects)
     remain = f"{millimetres(left)} remain{', the scatter included' if named else ''}"
     above = above_what(verdict.unexplained)
     if above:

@@ -11,7 +11,6 @@ from dataclasses import replace
 from armscope.core.words import enumerated
 from armscope.physics.backgrounds import TRANSMISSION
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import FoundEffect
 from armscope.verdict.tasks import FIND_OUT, Task
 
 SETTLE_SCATTER = (
@@ -22,17 +21,12 @@ LOWERS_NOTHING = "to know it changes nothing yet: what it is says the cure"
 """In place of what a step leaves that only finds out."""
 
 
-def scatters(effect: FoundEffect) -> bool:
-    """Whether an effect is a joint's scatter."""
-    return any(p.name == "scatter" for p in effect.parameters)
-
-
 def beside_scatter(task: Task, verdict: Diagnosis) -> Task:
     """A drive's task where its joint scatters as play does: the side of approach goes with the angle at most poses.
 
     What follows the angle there may be no more than that.
     """
-    loose = {each.location for each in verdict.effects if scatters(each)}
+    loose = {each.location for each in verdict.effects if each.scatters}
     places = [member.partition(" at ")[2] for member in task.members]
     if task.family != TRANSMISSION or not loose.intersection(places):
         return task
@@ -51,7 +45,7 @@ def finding_out(tasks: Sequence[Task], verdict: Diagnosis, left_mm: float) -> li
     Returns:
         The steps.
     """
-    loose = {each.as_member for each in verdict.effects if scatters(each)}
+    loose = {each.as_member for each in verdict.effects if each.scatters}
     return [
         replace(
             task,

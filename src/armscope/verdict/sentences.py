@@ -19,6 +19,7 @@ from armscope.verdict.remainder import above_what, asked_of_noise, still_open
 from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
 from armscope.verdict.told_causes import MOST_OF_ALL, WORST, is_spread, told_and_rest, with_share
 from armscope.verdict.unsettled import vague
+from armscope.verdict.untold import beyond_arms, untold
 from armscope.verdict.wording import (
     BESIDE,
     GROWS,
@@ -27,9 +28,7 @@ from armscope.verdict.wording import (
     SMALL,
     SPREAD,
     also_out,
-    beyond_arms,
     capitalised,
-    implausible,
     main_and_minor,
     millimetres,
     percent,
@@ -155,7 +154,10 @@ def makes_worse(verdict: Verdict) -> bool:
     """Whether such rows are clearly worse with the model; or worse at all, as the rows are that it was fitted to.
 
     Rows that fit no name, and those of joints that scatter, count little in a fit: it may miss all rows by more then.
+    Where nothing but scatter is told there is nothing that could make them worse.
     """
+    if verdict.effects and all(effect.scatters for effect in verdict.effects) and not verdict.background.present:
+        return False
     promise, held = promised(verdict), verdict.held_out
     surely = 1 + WORDS.rounding  # where nothing is named the two differ in their last digit
     fits_worse = verdict.residual_after_mm > surely * verdict.residual_before_mm
@@ -262,7 +264,7 @@ def atlas_column(effect: FoundEffect) -> str:
 
 def _told(effect: FoundEffect) -> Told:
     told = () if beyond_arms(effect) else effect.parameters  # a small number beside one that is not told misleads
-    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in told if not implausible(p, effect)}
+    numbers = {p.name: Number(p.value, p.unit, p.stderr) for p in told if not untold(p, effect)}
     if effect.curve is not None and len(effect.curve.value):
         farthest = reach(effect.curve)
         numbers[farthest.name] = Number(farthest.value, farthest.unit, farthest.stderr)

@@ -28,7 +28,8 @@ from armscope.verdict.filenames import CURVES
 from armscope.verdict.motion_in_words import correction_in_words, motion_in_words
 from armscope.verdict.payload_place import instruction_of
 from armscope.verdict.sentences import phrase
-from armscope.verdict.wording import capitalised, half_interval, implausible, read_parameter
+from armscope.verdict.untold import untold
+from armscope.verdict.wording import capitalised, half_interval, read_parameter
 
 FIND_OUT = "to be found out"
 """What is changed about what scatters: nothing before it is known what it follows."""
@@ -97,7 +98,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         The task.
     """
     # what scatters has no curve to correct by
-    known = None if any(p.name == "scatter" for p in effect.parameters) else _definition(cause, effect)
+    known = None if effect.scatters else _definition(cause, effect)
     words = dict.fromkeys(INSTRUCTION_WORDS, "–") | {"location": effect.location, "size": ""}
     words["jump"] = _jump(effect)
     words["row"] = "; ".join(_row(effect)) or "these poses do not separate its errors"
@@ -106,7 +107,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         words["location"], words["row"] = _origin(scene.arm, effect)
     words["bars"] = bars_set_right(effect.parameters)
     words["correction"] = correction_in_words(scene, cause.parts)
-    told = {p.name: p for p in effect.parameters if not implausible(p, effect)}
+    told = {p.name: p for p in effect.parameters if not untold(p, effect)}
     if "offset" in told:
         stands = angle(told["offset"].value, told["offset"].stderr)
         words["zero"] = f"where the controller shows 0°, the joint stands at {stands}"
@@ -256,7 +257,8 @@ def _jump(effect: FoundEffect) -> str:
     """How far and which way: of a joint, or in the axes of what jumped."""
     zero = next((p for p in effect.parameters if p.name == "jump"), None)
     if zero is not None:
-        return f" (it jumped by {angle(zero.value, zero.stderr)})"
+        how_far = f"it jumped by {angle(zero.value, zero.stderr)}"
+        return f" ({'by how much, these poses leave open' if untold(zero, effect) else how_far})"
     named = {"rx": "about x", "ry": "about y", "rz": "about z"}
     told = [
         f"{named[p.name]} {angle(p.value, p.stderr)}" if p.name in named else f"{p.name} {length(p.value, p.stderr)}"
@@ -269,7 +271,7 @@ def _jump(effect: FoundEffect) -> str:
 
 def _row(effect: FoundEffect) -> Iterator[str]:
     for p in effect.parameters:
-        if implausible(p, effect):
+        if untold(p, effect):
             continue
         size = length(p.value, p.stderr) if p.unit == "mm" else angle(p.value, p.stderr)
         yield f"{p.name} = stated {p.name} {size if size[0] in '+−' else f'+{size}'}"

@@ -256,27 +256,6 @@ def plain(text: str) -> str:
     return words.replace("unknown at", "an unexplained curve at")
 
 
-IMPLAUSIBLE = {"mm": 15.0, "rad": 0.1, "rad/rad": 0.05, "m/m": 2e-3, "1/K": 1e-4, "rad/K": 1e-3}
-"""Beyond these a fitted error of shape, drives or instrument is none of an arm that works at all: links are
-made to a few tenths of a mm, mastering is good to a few mrad, steel and aluminium grow by 12 and 24 millionths per K
-(ISO 230-1 and makers' data sheets); the bounds lie several times beyond. Such a value stands in for another one."""
-ABOUT_THE_ARM = ("geometric", "transmission", "thermal", "instrument")
-
-
-def implausible(parameter: Parameter, effect: FoundEffect) -> bool:
-    """Whether a value can't be told: it lies beyond what arms have, or the rows leave it open beyond that."""
-    bound = IMPLAUSIBLE.get(parameter.unit)
-    if bound is None or effect.family not in ABOUT_THE_ARM or parameter.name in ("phase", "direction"):
-        return False
-    open_by = parameter.stderr if math.isfinite(parameter.stderr) else 0.0
-    return max(abs(parameter.value), open_by) > bound
-
-
-def beyond_arms(effect: FoundEffect) -> bool:
-    """Whether a value that is sure lies beyond what arms have: what was stated of the arm is to be looked at first."""
-    return any(implausible(p, effect) and abs(p.value) > WORDS.sure * p.stderr for p in effect.parameters)
-
-
 def effect_in_words(effect: str, location: str) -> str:
     """ "joint_compliance" at "joint 2" as "joint compliance at joint 2"; "base_shift" at "base" as "base shift"."""
     return plain(effect if effect.startswith(location) else f"{effect} at {location}")

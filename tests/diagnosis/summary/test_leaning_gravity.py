@@ -46,6 +46,14 @@ def test_gravity_that_betters_a_name_takes_its_place(seed: int) -> None:
     np.testing.assert_allclose(verdict.model.arm.gravity, leaning(arm_named("six-axis"), 3.0).gravity, atol=0.06)
 
 
+def test_gravity_turned_round_is_used_where_joints_push_against_the_stated_one() -> None:
+    """A little give "as any arm has" was told, and to enter it, of an arm that hung and was stated to stand."""
+    verdict = told_upright(180.0, SOFT, 2)
+    assert {(e.effect, e.location) for e in verdict.effects} == set(SOFT)
+    assert verdict.model.arm.gravity[2] > 9.7
+    assert any("springs that push" in n.text for n in verdict.notices)
+
+
 @pytest.mark.parametrize(("after", "other", "which"), [(0.05, 0.04, 1), (0.05, 0.06, 0), (np.nan, np.nan, 1)])
 def test_a_direction_nobody_asked_for_must_foretell_other_rows_no_worse(after: float, other: float, which: int) -> None:
     both = [verdicts.case(effects=(), held_out=HeldOut(0.4, each)).verdict for each in (after, other)]

@@ -14,6 +14,7 @@ from armscope.fitting.column_blocks import ModelColumns, TermBlocks
 from armscope.fitting.linearisation import LinearisedTable
 from armscope.fitting.parameter_layout import ParameterLayout
 from armscope.inference.linear_algebra import lower_cholesky, rss_reduction, solve_lower
+from armscope.inference.normal_equations import steadied
 from armscope.measurement.row_weights import RowWeights
 from armscope.physics.effect import AXES, ONE, Direction, Driver, Term, motor, term
 from armscope.physics.model import FittedModel
@@ -58,7 +59,8 @@ def atlas(layout: ParameterLayout, model: FittedModel, recordings: Recordings, w
     table, w = LinearisedTable(recordings.rows(rows), order=np.arange(len(rows))), weights.take(rows, share)
     # columns and response must stand at one and the same point and on the same rows, or what the frames absorb does not
     # cancel
-    fitted = normal_equations_by_block(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))[0]
+    (of_rows,) = normal_equations_by_block(layout, model, table, w, np.zeros(len(rows), dtype=np.intp))
+    fitted = steadied(of_rows, layout.frames)
     drivers = _drivers(model, recordings)
     whole = _whole_effects(model, table.recordings)
     names = tuple(dict.fromkeys([*(name for name, _ in drivers), *(name for _, name, _ in whole)]))

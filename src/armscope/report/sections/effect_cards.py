@@ -11,12 +11,12 @@ from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, FoundEffect, Parameter
 from armscope.verdict.told_causes import of_what_calibration_leaves
+from armscope.verdict.untold import absorbed, implausible
 from armscope.verdict.wording import (
     Reading,
     capitalised,
     effect_in_words,
     evidence_in_words,
-    implausible,
     millimetres,
     percent,
     plain,
@@ -26,8 +26,6 @@ from armscope.verdict.wording import (
 
 MOST_PARAMETERS = 8
 UNKNOWN_MASSES = "compliance_times_moment"
-LEFT_OPEN = 10.0
-"""A parameter whose standard error would move the tool so many times as far as its effect does is left open."""
 HALF_A_PERIOD = {"phase": math.pi, "direction": math.pi / 2}
 """Where a wave is largest, and about which line an axis tilts, are open when their intervals hold every angle."""
 
@@ -133,11 +131,7 @@ def _since(effect: FoundEffect) -> str:
 
 
 def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
-    """A parameter as a card shows it; one that the poses leave open is not told with digits that mean nothing.
-
-    A length or an angle whose uncertainty would move the tool many times as far as the whole effect does must be
-    cancelled by others in these poses (d of neighbouring parallel axes, for instance).
-    """
+    """A parameter as a card shows it; one that the poses leave open is not told with digits that mean nothing."""
     reading = read_parameter(parameter, effect.effect)
     known = effect_named(effect.effect)
     if known and known.departs and parameter.value > 0:
@@ -149,10 +143,7 @@ def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
         if INTERVAL * parameter.stderr < HALF_A_PERIOD[parameter.name]:
             return reading
         return Reading(reading.label, "undetermined", "not determined by these poses")
-    lever_mm = {"mm": 1.0, "rad": 1e3}.get(parameter.unit)  # an angle acts at about a metre
-    open_mm = parameter.stderr * lever_mm if lever_mm is not None and math.isfinite(parameter.stderr) else 0.0
-    open_mm = 0.0 if effect.location == "payload" else open_mm  # where a load sits moves no tool by as much
-    if len(effect.parameters) < 2 or open_mm < LEFT_OPEN * effect.rms_at_tool_mm or effect.nameless:
+    if not absorbed(parameter, effect):
         return reading
     return Reading(reading.label, "undetermined", "in these poses other parameters absorb it")
 

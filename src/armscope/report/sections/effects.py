@@ -14,7 +14,6 @@ from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis, NextPoses
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.payload_place import carries_over
-from armscope.verdict.scatter_steps import scatters
 from armscope.verdict.wording import main_and_minor, millimetres, percent
 
 
@@ -40,7 +39,7 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
 
 def _context(subject: Subject) -> dict[str, Any]:
     # what does nothing by itself has no worth alone, nor has what scatters: nobody knows yet what cures it
-    by_itself = [(n, c) for n, c in enumerate(subject.worth.causes) if not (c.requires or scatters(c.effects[0]))]
+    by_itself = [(n, c) for n, c in enumerate(subject.worth.causes) if not (c.requires or c.effects[0].scatters)]
     alone = {id(c.effects[0]): subject.worth.cured([n]) for n, c in by_itself}
     main, _ = main_and_minor(subject.verdict.effects)
     before = millimetres(subject.expected(rms(subject.worth.before)))

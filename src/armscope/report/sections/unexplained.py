@@ -32,7 +32,7 @@ def _left_is_told(verdict: Verdict) -> str:
 def _scatters(verdict: Verdict) -> bool:
     """Whether what is left is scatter, which has no curve."""
     there = [each for each in verdict.effects if each.location == verdict.unexplained.location]
-    return any(number.name == "scatter" for effect in there for number in effect.parameters)
+    return any(effect.scatters for effect in there)
 
 
 UNEXPLAINED = Section("unexplained", "What is left", "What is left", _context, folded=True)
