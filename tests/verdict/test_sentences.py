@@ -156,6 +156,10 @@ def test_a_cause_has_one_pair_of_brackets():
     assert said.endswith("at joint 2 (also giving way: joint 3, and all others a little)")
     assert said.count("(") == 1
     assert cause_in_words("elastic", [compliance()], everywhere()).endswith("under gravity (all others a little)")
+    worst = replace(everywhere(), worst="link 1")
+    assert cause_in_words("elastic", [compliance()], worst).endswith("(all others a little, most at link 1)")
+    there = replace(everywhere(), worst=compliance().location)
+    assert cause_in_words("elastic", [compliance()], there).endswith("under gravity (all others a little)")
 
 
 @pytest.mark.parametrize(("share", "nats", "leads"), [(0.3, 150.0, True), (0.1, 150.0, False), (0.3, 5.0, False)])

@@ -91,7 +91,9 @@ def cause_in_words(family: str, members: Sequence[FoundEffect], small: Backgroun
     beside = also_out(family, told[0], [effect for effect in members if effect not in more])
     if small and small.share > sum(effect.share for effect in members) and family in IN_ALL:
         return _with_others(f"{IN_ALL[family]}{MOST_OF_ALL}{phrase(told[0])}", beside)
-    beside += [BESIDE.get(family, _OTHERS)] if small else []
+    if small:
+        elsewhere = small.worst and small.worst not in {effect.location for effect in members}
+        beside.append(BESIDE.get(family, _OTHERS) + (WORST + small.worst if elsewhere else ""))
     return _with_others(" and ".join([phrase(told[0]), *map(_how, more)]), beside)
 
 
