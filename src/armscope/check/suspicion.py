@@ -17,8 +17,11 @@ APPROACH = "approach"
 SETTLED = "settling"
 """Kind of a suspicion that angles and points were not taken at one moment."""
 
-BESIDE = (GRAVITY, APPROACH, SETTLED)
-"""Kinds of hints that stand above a diagnosis, which is made all the same."""
+ORIENTED = "orientations"
+"""Kind of a suspicion about measured orientations: nobody needs them, and what is not the tool's is left out."""
+
+BESIDE = (GRAVITY, APPROACH, SETTLED, ORIENTED)
+"""Kinds of what stands above a diagnosis, which is made all the same."""
 
 TOO_SHORT = "too short"
 """Kind of a problem with which nothing can be diagnosed, whatever a user asks for."""

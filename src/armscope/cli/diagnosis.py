@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -117,6 +118,8 @@ def diagnose(
 
     if run or first_id is not None:
         table = table.of_runs(run or (), first_id)
+    if not orientation:  # what nobody uses is not judged either
+        table = replace(table, orientation=None)
     if not anyway:
         refuse_unusable(arm, table)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -126,9 +126,12 @@ def diagnose(
         with threadpool_limits(1):
             return diagnose_moving(recordings, _described(robot), **options)
     refuse_unknown("diagnose", options, [each.name for each in fields(Settings)])
+    settings = settings or Settings(**options)
     table, arm = read_recordings(recordings), read_robot(robot)
+    if not settings.orientation:  # what nobody uses is not judged either
+        table = replace(table, orientation=None)
     with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
-        return Diagnosed(**vars(diagnose_arm(arm, table, settings or Settings(**options))))
+        return Diagnosed(**vars(diagnose_arm(arm, table, settings)))
 
 
 def calibrate(recordings: Table, robot: Robot | None = None, **options: Any) -> Calibration:

@@ -54,8 +54,8 @@ ANSWERS = {
     "cannot tell": ("depends", "cannot tell"),
 }
 WARNINGS = (
-    "check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible",
-    "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
+    "check", "gravity", "approach", "orientations", "stated noise", "fewer rows than parameters", "too few rows",
+    "implausible", "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = f"Rows that took no part in the fit are predicted worse with this model than without it. {NOT_YET}"
