@@ -42,7 +42,7 @@ from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.promise import promised
 from armscope.verdict.remainder import asked_of_noise
-from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, Notice
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, TOOL_EXCHANGED, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import capitalised, main_and_minor, millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
@@ -55,7 +55,7 @@ ANSWERS = {
 }
 WARNINGS = (
     "check", "gravity", "approach", "orientations", "stated noise", "fewer rows than parameters", "too few rows",
-    "implausible", "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
+    "implausible", "load in question", TOOL_EXCHANGED, ROWS_LEFT_OUT, NO_BAD_SHOTS,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = f"Rows that took no part in the fit are predicted worse with this model than without it. {NOT_YET}"
