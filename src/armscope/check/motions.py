@@ -110,7 +110,7 @@ def _too_short(motions: Motions) -> Iterator[Suspicion]:
 
 def _leaps(motions: Motions) -> Iterator[Suspicion]:
     for j, row, step in leaps(motions):
-        rows = f"from row {row + 1} to row {row + 2}"
+        rows = f"from line {row + 1} to line {row + 2}"
         statement = f"q{j + 1} leaps by {np.degrees(step):.0f} deg {rows}: no joint moves so"
         cure = (
             "Was it recorded within one turn, and filtered or interpolated since? Count the turns on before that. "
