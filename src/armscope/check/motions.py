@@ -78,10 +78,11 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
             found.append(unstated_load(mass))
         found += mistakes(samples, arm, Channels.of(even, arm))
         found += other_clock(even, runs, arm)
-    return MotionCheck(tuple(_contents(even)), tuple(found))
+    return MotionCheck(tuple(contents_of_motion(even)), tuple(found))
 
 
-def _contents(motions: Motions) -> Iterator[str]:
+def contents_of_motion(motions: Motions) -> Iterator[str]:
+    """How much was recorded of each run, and how far each joint's position, and torque, force or current, goes."""
     yield f"{motions.source}: {len(motions)} samples of {motions.n_motors} motors, {motions.kind}"
     for run in motions.runs:
         time = motions.time[motions.run == run]
@@ -90,7 +91,9 @@ def _contents(motions: Motions) -> Iterator[str]:
     for j in range(motions.n_motors):
         factor, unit = (1e3, "mm") if motions.sliding[j] else (180 / np.pi, "deg")
         low, high = factor * motions.q[:, j].min(), factor * motions.q[:, j].max()
-        yield f"  q{j + 1}: {low:8.2f} ... {high:8.2f} {unit}, {motions.kind} {_range(motions.effort[:, j])}"
+        kind, of_kind = ("force", "N") if motions.sliding[j] else ("torque", "N m")
+        kind, of_kind = ("current", "A") if motions.kind == "current" else (kind, of_kind)
+        yield f"  q{j + 1}: {low:8.2f} ... {high:8.2f} {unit}, {kind} {_range(motions.effort[:, j])} {of_kind}"
 
 
 def _range(values: Array) -> str:

@@ -33,7 +33,7 @@ class Key(NamedTuple):
 
     colour: str
     words: str
-    look: Literal["", "wide", "dashed"] = ""
+    look: Literal["", "wide", "dashed", "dots"] = ""
 
 
 def share_level(part: float) -> int:
