@@ -16,8 +16,9 @@ from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_load import unstated_load, with_a_load
 from armscope.check.motion_mistakes import mistakes
 from armscope.check.motion_readings import Samples
-from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
+from armscope.check.suspicion import SAYS_MORE, TOO_SHORT, Suspicion, first_of_suspicions, verdict_lines
 from armscope.core.sampling import spread_evenly
+from armscope.core.told import InWords
 from armscope.core.types import Array
 from armscope.motion.check import channels, doubts_about, refuse_other_joints, refuse_unknown_gains, too_short
 from armscope.motion.samples.spikes import without_spikes
@@ -27,8 +28,8 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 
 
-@dataclass(frozen=True)
-class MotionCheck:
+@dataclass(frozen=True, repr=False)
+class MotionCheck(InWords):
     """What was seen: the contents in lines, and what looks wrong."""
 
     contents: tuple[str, ...]
@@ -43,6 +44,10 @@ class MotionCheck:
         """Contents and suspicions as plain data."""
         told = [vars(each) for each in self.suspicions]
         return {"problems": self.has_problems, "suspicions": told, "contents": list(self.contents)}
+
+    def sentences(self) -> tuple[str, ...]:
+        """What looks wrong, in which table, and what says more."""
+        return first_of_suspicions(self.suspicions), f"{self.contents[0]}.", SAYS_MORE
 
     def text(self) -> str:
         """The report as plain text."""

@@ -49,6 +49,17 @@ def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
     return [f"{each.weight}: {each.text()}" for each in ordered]
 
 
+SAYS_MORE = "text() says all that was seen, to_json() gives it as plain data."
+
+
+def first_of_suspicions(suspicions: tuple[Suspicion, ...]) -> str:
+    """The gravest one in a sentence, and how many there are beside it."""
+    first, *others = verdict_lines(suspicions)
+    told = f"{first[0].upper()}{first[1:]}"
+    told = told if told.endswith((".", "?")) else f"{told}."
+    return f"{told} And {len(others)} more." if others else told
+
+
 def refuse_problems(suspicions: Sequence[Suspicion], source: object, anyway: str = "diagnoses") -> None:
     """Where something makes results meaningless, none are made.
 
