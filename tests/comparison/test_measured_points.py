@@ -39,8 +39,25 @@ def test_a_target_that_was_moved_is_told_with_an_interval_that_holds_its_distanc
     assert high - low < 0.2
     np.testing.assert_allclose(np.subtract(second.point_mm, first.point_mm), STEP_MM, atol=0.1)
     assert "Nothing of the arm changed" in found.headline
+    assert not second.may_be_zero
     assert 'elsewhere on the flange in "after" than in "before": another target, or a bent tool' in found.headline
     assert found.to_json()["points"][1]["moved_mm"] == pytest.approx(second.moved_mm)
+
+
+def test_a_point_that_moved_about_the_last_axis_may_be_that_joints_zero() -> None:
+    """Base and tool take that zero up, so that no change is named; it is a cause of the arm all the same."""
+    aside = np.array([80.0, -30.0, 50.0])
+    before, slipped = (with_target_at(session(seed), aside) for seed in (65, 66))
+    turned = chain(ARM, slipped.motor_angles + OWN + np.array([0, 0, 0, 0, 0, 0.02]))
+    points = turned.tool + turned.tool_rotation @ (1e-3 * aside)
+    noise = np.random.default_rng(66).normal(0, 3e-5, points.shape)
+    found = compare(ARM, {"before": before, "after": replace(slipped, positions=points + noise)})
+    assert not found.changes
+    assert found.points[1].is_moved
+    assert found.points[1].may_be_zero
+    assert found.headline.startswith("No cause differs that these recordings show")
+    assert found.headline.endswith("another target, a bent tool, or the zero of the last joint, which moves it so.")
+    assert "no cause of the arm" not in found.headline
 
 
 def test_a_target_that_sits_where_it_sat_is_not_told() -> None:

@@ -18,6 +18,7 @@ from armscope.comparison.dispersion import Possible
 from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 from armscope.core.words import enumerated
+from armscope.robot import Arm, chain
 from armscope.verdict.wording import decimals_for
 
 
@@ -31,6 +32,7 @@ class MeasuredPoint:
         than: the recording before it that has a target of that name; empty for the first one.
         moved_mm, interval_95: how far from its place there, and between which distances; NaN for the first one.
         is_moved: that it surely sits elsewhere than there, by more than a reflector that is put on again.
+        may_be_zero: that it moved about the last joint's axis, as if that joint's zero had.
     """
 
     recording: str
@@ -41,6 +43,7 @@ class MeasuredPoint:
     moved_mm: float = math.nan
     interval_95: tuple[float, float] = (math.nan, math.nan)
     is_moved: bool = False
+    may_be_zero: bool = False
 
     def told(self, also: bool = False) -> str:
         """How far it sits from where it was, as a clause; shorter where another one was told before."""
@@ -85,26 +88,52 @@ def measured_points(model: SharedModel, taken: Sequence[Possible], names: Sequen
                 other = where[f"{than}: {target}"]
                 contrast = np.hstack([np.eye(len(own)), -np.eye(len(own))])
                 spread = contrast @ covariance[np.ix_(both := [*own, *other], both)] @ contrast.T
-                distance, interval, is_moved = _apart(points[own] - points[other], spread, free, math.sqrt(variance))
-                point = replace(point, than=than, moved_mm=distance, interval_95=interval, is_moved=is_moved)
+                step, half = points[own] - points[other], float(stdtrit(free, COMPARING.interval))
+                distance, interval = _apart(step, spread, half)
+                point = replace(
+                    point,
+                    than=than,
+                    moved_mm=distance,
+                    interval_95=interval,
+                    is_moved=interval[0] > COMPARING.moved_point * math.sqrt(variance),
+                    may_be_zero=_about_last_axis(model.arm, points[other], step, half**2 * spread),
+                )
             found.append(point)
     return tuple(found)
 
 
-def _apart(step: Array, covariance: Array, free: float, noise: float) -> tuple[float, tuple[float, float], bool]:
-    """How far, the 95 % interval of that, and whether it is surely farther than reflectors are that are put on again.
+def _apart(step: Array, covariance: Array, half: float) -> tuple[float, tuple[float, float]]:
+    """How far, and the 95 % interval of that.
 
     Args:
         step: (3,) mm.
         covariance: (3, 3) of it.
-        free: how many numbers are free.
-        noise: mm per axis.
+        half: of an interval, in standard errors.
     """
     distance = float(np.linalg.norm(step))
     along = step / max(distance, 1e-300)
-    half = float(stdtrit(free, COMPARING.interval) * np.sqrt(along @ covariance @ along))
-    least = max(distance - half, 0.0)
-    return distance, (least, distance + half), least > COMPARING.moved_point * noise
+    error = half * float(np.sqrt(along @ covariance @ along))
+    return distance, (max(distance - error, 0.0), distance + error)
+
+
+def _about_last_axis(arm: Arm, point: Array, step: Array, within: Array) -> bool:
+    """Whether a step keeps a point's way along the last joint's axis and its distance from that, as turning it does.
+
+    Args:
+        arm: the arm.
+        point: (3,) mm in the last frame, before.
+        step: (3,) mm.
+        within: (3, 3) covariance of the step, times the square of half an interval.
+    """
+    frames = chain(arm, np.zeros((1, arm.n_motors)))
+    turn = frames.tool_rotation[0]
+    axis = turn.T @ frames.joint_rotation[0, -1, :, 2]
+    origin = 1e3 * (arm.tool + turn.T @ (frames.joint_origin[0, -1] - frames.tool[0]))
+    before, after = (each - axis * (axis @ each) for each in (point - origin, point + step - origin))
+    away = (before + after) / max(float(np.linalg.norm(before + after)), 1e-300)
+    farther = float(np.linalg.norm(after) - np.linalg.norm(before))
+    checked = ((axis @ step, axis), (farther, away))
+    return all(size**2 <= along @ within @ along for size, along in checked)
 
 
 def told_of_points(points: Sequence[MeasuredPoint]) -> str:
@@ -114,4 +143,7 @@ def told_of_points(points: Sequence[MeasuredPoint]) -> str:
         return ""
     told = [each.told(also=each is not moved[0]) for each in moved[: COMPARING.named]]
     more = [f"{len(moved) - len(told)} more"] * (len(moved) > len(told))
-    return f"The {enumerated([*told, *more])}: another target, or a bent tool. That is no cause of the arm."
+    said = f"The {enumerated([*told, *more])}: another target"
+    if all(each.may_be_zero for each in moved):
+        return f"{said}, a bent tool, or the zero of the last joint, which moves it so."
+    return f"{said}, or a bent tool. That is no cause of the arm."

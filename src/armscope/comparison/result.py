@@ -188,14 +188,14 @@ class Comparison(InWords):
         chance = f"p = {p:.2g}" if p else "p < 1e-300"  # below what numbers hold; nothing is certain
         nothing = "all are alike" if self.of_arms else "nothing changed"
         said = f"{self.told} ({chance} that {nothing})." if self.changes else ""
-        moved = self.told_of_points
+        moved, a_zero = self.told_of_points, any(each.is_moved and each.may_be_zero for each in self.points)
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
         if not said and among and self.p_nothing_changed <= self.level:
             differs = "These arms differ" if self.of_arms else "Something changed"
             said = f"{differs} ({among}; {chance} that {nothing}), and no cause that was tried can be what it was."
         elif not said and among:
             alike = "No arm is unlike the others" if self.of_arms else f"Nothing{' of the arm' * bool(moved)} changed"
-            alike = "No cause differs" if self.noisier else alike
+            alike = "No cause differs" if self.noisier or (moved and a_zero) else alike
             said = f"{alike} that these recordings show ({among}; {chance})."
         return " ".join(filter(None, (said, self.told_beside)))
 
