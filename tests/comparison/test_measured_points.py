@@ -84,6 +84,9 @@ def test_where_each_measured_point_sits_and_what_was_not_looked_at_stand_on_the_
         MeasuredPoint("before", "", (20.0, 10.0, 120.0), (0.1,) * 3),
         MeasuredPoint("after", "", (23.0, 8.0, 125.0), (0.1,) * 3, "before", 6.164, (6.12, 6.21), is_moved=True),
     )
+    unchanged = replace(FOUND, changes=(), points=points, p_nothing_changed=1.0)
+    assert "the measured point moved" in words_of(unchanged, tmp_path)
+    assert "no change seen" in words_of(replace(unchanged, points=points[:1]), tmp_path)
     said = words_of(replace(FOUND, points=points, left_out="Left out: approach1 …."), tmp_path)
     assert "6.16 mm (6.12 … 6.21) elsewhere on the flange" in said
     assert "Where the measured point sits on the flange" in said

@@ -123,6 +123,8 @@ def _answer(found: Comparison) -> tuple[str, str]:
         return "depends", "no cause found"
     if found.noisier:
         return "depends", "more is left"
+    if found.told_of_points:
+        return "depends", "the measured point moved"
     return "holds", "no difference seen" if found.of_arms else "no change seen"
 
 
