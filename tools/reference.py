@@ -71,7 +71,8 @@ RECORDINGS = """\
 One row per measured point, comma-separated, UTF-8, decimal points; `.gz` is read, too. Units stand in the names.
 Small and capital letters are the same (`Q1_RAD` is read as `q1_rad`, and said). An empty cell is a value that was
 not recorded. Further columns are kept and named in a note. Files in other shapes: `armscope import` with a mapping,
-which `armscope init table.csv` drafts.
+which `armscope init table.csv` drafts. Errors name the *line* of the file, whose header is line 1. What is found of a
+*row* names its `id`; where there are none, rows are counted from 1 below the header.
 
 ```
 q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,x_mm,y_mm,z_mm,payload_kg

@@ -48,7 +48,7 @@ def test_one_row_is_told_as_few_rows_not_as_joints_that_stand(arm, table):
     one = table.rows(np.arange(len(table)) < 1)
     with pytest.raises(InputError) as error:
         refuse_unusable(arm, one)
-    assert "found '1 row in which no joint moves'" in str(error.value)
+    assert "found '1 row in which every joint stands still'" in str(error.value)
     assert "needs 15 rows at least" in str(error.value)
     assert "--anyway" not in str(error.value), "it would not help"
     assert check(one, arm).text().count("15") == 1

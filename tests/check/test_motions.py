@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from armscope.check.motion_readings import Samples, explained, read_otherwise
-from armscope.check.motions import check_moving
+from armscope.check.motions import check_moving, contents_of_motion
 from armscope.check.suspicion import refuse_problems
 from armscope.core.inputs import InputError
 from armscope.motion.pipeline import diagnose_motion
@@ -35,6 +36,12 @@ def test_a_good_table_is_not_accused_and_its_runs_are_listed(good: Motions) -> N
     assert not found.has_problems
     assert "run path 2: 1600 samples" in found.text()
     assert found.to_json()["problems"] is False
+
+
+def test_what_a_sliding_joint_does_is_a_force(good: Motions) -> None:
+    slides, turns, _ = list(contents_of_motion(replace(good, sliding=np.array([True, False, False]))))[-3:]
+    assert re.search(r"q1: .* mm, force \S+ \.\.\. \S+ N$", slides)
+    assert re.search(r"q2: .* deg, torque \S+ \.\.\. \S+ N m$", turns)
 
 
 def test_a_late_speed_is_told_with_its_lag_and_degrees_with_their_factor(good: Motions) -> None:

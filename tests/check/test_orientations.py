@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.check.report import check
+import armscope
+from armscope.check.preconditions import as_notices
+from armscope.check.report import check, what_forbids
 from tests.check.test_check import problems
 
 
@@ -34,3 +36,17 @@ def test_each_target_may_be_turned_in_its_own_way(arm, sound):
     assert problems(table, arm) == []
     assert check(table, arm).consistency.orientations
     assert "order x, y, z, w" in problems(replace(table, orientation=np.roll(table.orientation, -1, axis=1)), arm)[0]
+
+
+def test_a_wrong_order_is_a_mistake_with_its_cure_and_spoils_no_points(arm, sound):
+    wrong = replace(sound, orientation=np.roll(sound.orientation, -1, axis=1))
+    (notice,) = as_notices(what_forbids(wrong, arm), None)
+    assert notice.kind == "orientations"
+    assert "Declare order: xyzw, or exchange the columns. Until then positions are used alone." in notice.text
+    quick = {"resamples": 0, "cross_validation": False}
+    alone = armscope.diagnose(replace(sound, orientation=None), arm, **quick)
+    told, asked = (armscope.diagnose(wrong, arm, orientation=each, **quick) for each in (True, False))
+    assert told.headline == asked.headline == alone.headline
+    assert "cannot be relied on" not in alone.headline
+    assert notice in told.notices
+    assert asked.notices == alone.notices

@@ -83,3 +83,36 @@ def test_a_row_that_is_off_in_another_way_reads_as_no_other_target(arm, sound):
     told = " ".join(each.text() for each in check(table, arm).suspicions)
     assert "istyped" in told
     assert "reads as" not in told
+
+
+def of_three_targets(arm, sound):
+    """Forty poses at each of which three reflectors were measured under one id."""
+    angles = np.repeat(sound.motor_angles[:40], 3, axis=0)
+    which = np.arange(len(angles)) % 3
+    frames = chain(arm, angles)
+    tools = np.vstack([TOOLS_M, [-0.02, 0.04, 0.1]])
+    points = frames.tool + np.einsum("nij,nj->ni", frames.tool_rotation, tools[which] - arm.tool)
+    points += 3e-5 * np.random.default_rng(4).normal(size=points.shape)
+    table = sound.rows(np.repeat(np.arange(40), 3))
+    target, ids = np.array(["p1", "p2", "p3"])[which], np.repeat(np.arange(1, 41), 3).astype(str)
+    return replace(table, positions=points, orientation=None, target=target, id=ids)
+
+
+def test_targets_of_one_pose_that_changed_their_names_are_no_readings_of_the_row_before(arm, sound):
+    table = of_three_targets(arm, sound)
+    table.target[[22, 23]] = ["p3", "p2"]
+    told = " ".join(each.text() for each in check(table, arm).suspicions)
+    assert "row before" not in told
+    assert "row a: 8 (p3): reads as target p2; row a: 8 (p2): reads as target p3" in told
+    table = of_three_targets(arm, sound)
+    table.target[[21, 22, 23]] = ["p2", "p3", "p1"]
+    told = " ".join(each.text() for each in check(table, arm).suspicions)
+    assert "row before" not in told
+    assert "3 rows fit another target" in told
+
+
+def test_of_several_targets_the_row_before_is_that_of_the_same_one(arm, sound):
+    table = of_three_targets(arm, sound)
+    table.positions[21:24] = table.positions[18:21]
+    told = " ".join(each.text() for each in check(table, arm).suspicions)
+    assert "3 rows hold the points of the row before: a: 8 (p1), a: 8 (p2), a: 8 (p3)" in told

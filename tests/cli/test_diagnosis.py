@@ -38,3 +38,8 @@ def test_where_rows_are_too_few_it_is_said_how_many_are_needed(arm: Any) -> None
         "fewer rows than parameters", "12 rows hold 36 numbers, 9 of which base and tool take up: too few."
     )
     assert notes(arm, notices=(obstacle,))[-1] == "of these runs and targets a diagnosis needs 15 rows at least."
+
+
+def test_a_tool_that_moved_between_runs_is_told(arm: Any) -> None:
+    moved = Notice("tool exchanged", "From run to run the tool lies elsewhere, its point up to 6.16 mm.")
+    assert notes(arm, mismatch=True, effects=(), notices=(moved,)) == [moved.text]

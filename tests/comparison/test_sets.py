@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.comparison.result import Comparison
-from armscope.comparison.sets import stacked
+from armscope.comparison.sets import left_out_context, stacked
 from armscope.core.inputs import InputError
 from tests.comparison.test_changes import ARM, session
 
@@ -36,3 +36,12 @@ def test_a_recording_is_not_compared_with_its_own_rows():
     for copy in (first, first.rows(np.arange(30) < 12)):
         with pytest.raises(InputError, match=r"points of a in c, to the last digit.*named twice"):
             stacked(ARM, {"a": first, "b": second, "c": copy})
+
+
+def test_what_only_some_recordings_hold_is_said_to_be_left_out():
+    plain = session(1)
+    sided = replace(plain, approach=np.ones((len(plain), 6)))
+    assert left_out_context({"a": plain, "b": plain}) == left_out_context({"a": sided, "b": sided}) == ""
+    said = left_out_context({"a": plain, "b": sided})
+    assert 'approach1 … (only in "b")' in said
+    assert "record it in all of them" in said

@@ -177,7 +177,7 @@ def test_a_table_of_commands_has_every_row_of_the_path_and_no_command_where_refu
     refused = table[table["status"] == "refused"]
     assert refused.filter(regex="^q._rad$").isna().all(axis=None)
     assert table[table["status"] == "ok"].filter(regex="^q._rad$").notna().all(axis=None)
-    with pytest.raises(InputError, match=r"row 9.*beyond reach"):
+    with pytest.raises(InputError, match=r"line 9.*beyond reach"):
         result.require_all("job.mod")
 
 

@@ -24,10 +24,10 @@ def test_the_default_table_varies_what_its_sweeps_say():
 @pytest.mark.parametrize(
     ("text", "place", "found"),
     [
-        (HEADER + GOOD.replace(",10,", ",one,"), "row 2, column particles", "one"),
-        (HEADER + GOOD.replace(",200,", ",0,"), "row 2, column iterations", "0"),
-        (HEADER + GOOD.replace("constriction", "original2"), "row 2, column update", "original2"),
-        (HEADER + GOOD + GOOD, "row 3, column id", "a1"),
+        (HEADER + GOOD.replace(",10,", ",one,"), "line 2, column particles", "one"),
+        (HEADER + GOOD.replace(",200,", ",0,"), "line 2, column iterations", "0"),
+        (HEADER + GOOD.replace("constriction", "original2"), "line 2, column update", "original2"),
+        (HEADER + GOOD + GOOD, "line 3, column id", "a1"),
         (HEADER.replace("particles", "partikles") + GOOD, "line 1", "partikles"),
     ],
 )

@@ -25,7 +25,7 @@ def test_whoever_asks_hears_the_same(shift_mm: list[float], exchanged: bool) -> 
     assert ("tool seems to have moved between runs" in check(table, arm).text()) == exchanged
     assert any("it was exchanged" in note for note in calibrate(arm, table, "nominal").notes) == exchanged
     if found is not None:
-        assert found.point_mm == pytest.approx(max(map(abs, shift_mm)), abs=0.3)
+        assert found.point_mm == pytest.approx(np.linalg.norm(shift_mm), abs=0.3)
         assert found.turn_rad is None
         assert found.shared_mm > 2 * found.own_mm
 

@@ -16,7 +16,7 @@ HEADER = "arm,type,robot,recordings\n"
     ("text", "expected"),
     [
         ("arm,type,robot\na,b,c\n", "no column recordings"),
-        (HEADER + "a,,c,d\n", "row 2, column type"),
+        (HEADER + "a,,c,d\n", "line 2, column type"),
         (HEADER + "a,b,c,d\na,b,c,e\n", "one diagnosis per arm"),
         (HEADER + "../a,b,c,d\n", "no slash"),
     ],

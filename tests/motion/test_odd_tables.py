@@ -42,7 +42,7 @@ def test_a_channel_in_coarse_steps_is_not_cut_off() -> None:
 def test_a_run_of_one_sample_is_a_counter() -> None:
     motion = table(robot(), 3, seconds=3.0)
     numbered = as_motions(motion.assign(run=np.arange(len(motion))), "motions.csv", 3)
-    with pytest.raises(InputError, match=r"row 2, column run: .*number the rows"):
+    with pytest.raises(InputError, match=r"line 2, column run: .*number the rows"):
         mended(numbered)
 
 
@@ -108,7 +108,7 @@ def test_rows_given_twice_are_told_as_such_and_taken_once() -> None:
 def test_a_table_appended_to_itself_says_from_which_row_on() -> None:
     motion = table(robot(), 3, runs=1, seconds=3.0)
     again = as_motions(pd.concat([motion, motion], ignore_index=True), "motions.csv", 3)
-    with pytest.raises(InputError, match="It is row 2 once more: are rows given twice"):
+    with pytest.raises(InputError, match="It is line 2 once more: are rows given twice"):
         mended(again)
 
 

@@ -64,7 +64,7 @@ def test_time_that_goes_back_or_stands_in_milliseconds_is_refused() -> None:
     motions = moved(robot(), 1, runs=1)
     back = motions.time.copy()
     back[100] = 0.0
-    with pytest.raises(InputError, match=r"row 102, column time_s.*does not go back"):
+    with pytest.raises(InputError, match=r"line 102, column time_s.*does not go back"):
         mended(dataclasses.replace(motions, time=back))
     with pytest.raises(InputError, match="milliseconds"):
         mended(dataclasses.replace(motions, time=motions.time * 1e3))

@@ -72,6 +72,7 @@ def test_what_is_read_or_found_is_told_in_a_paragraph(found):
         "15 poses": armscope.choose_poses(arm, 15, candidates=100, starts=1),
         "commands for 60 of 60 rows": armscope.compensate(found, RECORDINGS),
         "five-effects": armscope.compare(table, other, robot=arm),
+        "Nothing looks wrong": armscope.check(table, arm),
     }
     for told, result in results.items():
         assert told in repr(result)

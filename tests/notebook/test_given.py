@@ -57,3 +57,10 @@ def test_a_drawing_is_short_in_words():
     drawing.line(np.zeros((4000, 2)))
     assert len(repr(drawing)) < 100
     assert "an arm" in repr(drawing)
+
+
+def test_recordings_in_a_list_are_asked_for_one_after_the_other():
+    with pytest.raises(InputError, match=r"found 'a list'; two or more .* one after the other.*\*recordings"):
+        armscope.compare([EXAMPLE, EXAMPLE])
+    with pytest.raises(InputError, match="no recordings"):
+        armscope.compare()

@@ -40,29 +40,31 @@ def complaint(file, **options):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        pytest.param(changed(1, "x_mm", ""), ["row 3", "x_mm", "nothing", "required"], id="empty cell"),
-        pytest.param(changed(2, "q1_rad", "nan"), ["row 4", "q1_rad", "nothing", "required"], id="NaN"),
-        pytest.param(changed(2, "y_mm", "inf"), ["row 4", "y_mm", "inf", "finite"], id="infinite"),
+        pytest.param(changed(1, "x_mm", ""), ["line 3", "x_mm", "nothing", "required"], id="empty cell"),
+        pytest.param(changed(2, "q1_rad", "nan"), ["line 4", "q1_rad", "nothing", "required"], id="NaN"),
+        pytest.param(changed(2, "y_mm", "inf"), ["line 4", "y_mm", "inf", "finite"], id="infinite"),
         pytest.param(
-            table(*[f"{n},0.1,0.2,{'9' * 400},4,5" for n in range(3)]), ["row 2", "x_mm", "finite"], id="400 digits"
+            table(*[f"{n},0.1,0.2,{'9' * 400},4,5" for n in range(3)]), ["line 2", "x_mm", "finite"], id="400 digits"
         ),
-        pytest.param(changed(0, "z_mm", "tall"), ["row 2", "z_mm", "'tall'", "number"], id="text in a number"),
-        pytest.param(changed(0, "z_mm", "TRUE"), ["row 2", "z_mm", "number"], id="a truth value in a number"),
-        pytest.param(changed(1, "q2_rad", "35.5"), ["row 3", "q2_rad", "35.5", "12.57", "q2_deg"], id="degrees as rad"),
-        pytest.param(changed(2, "id", "1"), ["row 4", "id", "'1'", "row 2"], id="duplicate id"),
-        pytest.param(table(*ROWS, "4,0.1,0.2,3,4"), ["row 5", "5 values", "6 values"], id="a row too short"),
-        pytest.param(table(*ROWS, "4,0.1,0.2,3,4,5,6"), ["row 5", "7 values", "6 values"], id="a row too long"),
-        pytest.param(table(ROWS[0] + ",9", *ROWS[1:]), ["row 2", "7 values", "6 values"], id="the first row too long"),
+        pytest.param(changed(0, "z_mm", "tall"), ["line 2", "z_mm", "'tall'", "number"], id="text in a number"),
+        pytest.param(changed(0, "z_mm", "TRUE"), ["line 2", "z_mm", "number"], id="a truth value in a number"),
         pytest.param(
-            table(ROWS[0], "2,0.3,0.4,101,5,201,301"), ["row 3", "7 values", "decimal comma"], id="decimal comma, bare"
+            changed(1, "q2_rad", "35.5"), ["line 3", "q2_rad", "35.5", "12.57", "q2_deg"], id="degrees as rad"
         ),
-        pytest.param(changed(1, "x_mm", '"101,5"'), ["row 3", "x_mm", "101,5", "decimal point"], id="decimal comma"),
+        pytest.param(changed(2, "id", "1"), ["line 4", "id", "'1'", "line 2"], id="duplicate id"),
+        pytest.param(table(*ROWS, "4,0.1,0.2,3,4"), ["line 5", "5 values", "6 values"], id="a row too short"),
+        pytest.param(table(*ROWS, "4,0.1,0.2,3,4,5,6"), ["line 5", "7 values", "6 values"], id="a row too long"),
+        pytest.param(table(ROWS[0] + ",9", *ROWS[1:]), ["line 2", "7 values", "6 values"], id="the first row too long"),
+        pytest.param(
+            table(ROWS[0], "2,0.3,0.4,101,5,201,301"), ["line 3", "7 values", "decimal comma"], id="decimal comma, bare"
+        ),
+        pytest.param(changed(1, "x_mm", '"101,5"'), ["line 3", "x_mm", "101,5", "decimal point"], id="decimal comma"),
         pytest.param(
             table(*[row + ",0" for row in ROWS], header=HEADER + ",x_mm"), ["line 1", "x_mm", "twice"], id="same column"
         ),
         pytest.param(
             table(ROWS[0], HEADER, ROWS[1]),
-            ["row 3", "q1_rad", "number", "second time"],
+            ["line 3", "q1_rad", "number", "second time"],
             id="the header again in the middle",
         ),
         pytest.param(table(*ROWS).replace("x_mm", "X"), ["line 1", "no column x_mm"], id="missing position"),
@@ -72,12 +74,12 @@ def complaint(file, **options):
         ),
         pytest.param(table(*ROWS).replace(",", ";"), ["line 1", "commas"], id="semicolons"),
         pytest.param("", ["line 1", "nothing", "names the columns"], id="empty file"),
-        pytest.param(HEADER + "\n", ["row 2", "nothing", "one measured row"], id="header only"),
-        pytest.param(table(ROWS[0], "", ROWS[1]), ["row 3", "nothing", "blank line"], id="blank line"),
+        pytest.param(HEADER + "\n", ["line 2", "nothing", "one measured row"], id="header only"),
+        pytest.param(table(ROWS[0], "", ROWS[1]), ["line 3", "nothing", "blank line"], id="blank line"),
         pytest.param(changed(1, "x_mm", '"101'), ["quotation mark"], id="a quotation mark that is never closed"),
         pytest.param(table('"' + ROWS[0], *ROWS * 20_000), ["line", "quotation mark"], id="never closed, long file"),
         *(
-            pytest.param(changed(1, "x_mm", word), ["row 3", "x_mm", "must be a number", cure], id=f"x_mm is {word}")
+            pytest.param(changed(1, "x_mm", word), ["line 3", "x_mm", "must be a number", cure], id=f"x_mm is {word}")
             for word, cure in (
                 ("1'234.5", "between thousands"),
                 ("1 234.5", "between thousands"),
@@ -96,7 +98,7 @@ def complaint(file, **options):
                 ("0x1F", "Correct it, or remove the row"),
             )
         ),
-        pytest.param("name: arm\na: [1, 2, 3]\n", ["row 2", "3 values", "the right file"], id="no table at all"),
+        pytest.param("name: arm\na: [1, 2, 3]\n", ["line 2", "3 values", "the right file"], id="no table at all"),
         pytest.param("sep=,\n" + table(*ROWS), ["line 1", "sep=,", "Remove this line"], id="a spreadsheet's own line"),
         pytest.param("\n".join(ROWS), ["line 1", "numbers", "Write a line q1_rad"], id="no names at all"),
         pytest.param('[{"q1_rad": 0.1, "q2_rad": 0.2}]', ["line 1", "JSON", "Save it as CSV"], id="JSON"),
@@ -113,17 +115,17 @@ def complaint(file, **options):
         pytest.param(table(*ROWS).replace("x_mm", "x_nm"), ["no column x_mm", "mean 'x_nm'"], id="a slip in a name"),
         pytest.param(
             changed(1, "x_mm", "NaN"),
-            ["row 3, column x_mm: found nothing, written 'NaN'", "required"],
+            ["line 3, column x_mm: found nothing, written 'NaN'", "required"],
             id="no value in words",
         ),
-        pytest.param(changed(1, "x_mm", ""), ["row 3, column x_mm: found nothing", "required"], id="no value"),
+        pytest.param(changed(1, "x_mm", ""), ["line 3, column x_mm: found nothing", "required"], id="no value"),
         pytest.param(
             "run,time_s,q1_rad,q2_rad\na,0,0.1,0.2\n",
             ["no columns x_mm, y_mm, z_mm, and neither tau1_nm nor current1_a", "torques stand in tau1_nm"],
             id="angles alone",
         ),
-        pytest.param(changed(1, "x_mm", "1e308"), ["row 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
-        pytest.param(changed(1, "x_mm", "1.5e7"), ["row 3", "x_mm", "10 km"], id="beyond any instrument"),
+        pytest.param(changed(1, "x_mm", "1e308"), ["line 3", "x_mm", "1e+308", "no recorded value"], id="huge"),
+        pytest.param(changed(1, "x_mm", "1.5e7"), ["line 3", "x_mm", "10 km"], id="beyond any instrument"),
     ],
 )
 def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words):
@@ -136,19 +138,19 @@ def test_one_error_that_says_where_what_and_how_to_mend_it(tmp_path, text, words
     ("columns", "words"),
     [
         ({"qw": 1, "qx": 0, "qy": 0}, ["line 1", "no column qz", "come together"]),
-        ({"qw": 1, "qx": 0, "qy": 0, "qz": 1}, ["row 2", "quaternion", "length"]),
+        ({"qw": 1, "qx": 0, "qy": 0, "qz": 1}, ["line 2", "quaternion", "length"]),
         ({"approach1": 1}, ["no column approach2"]),
-        ({"approach1": 1, "approach2": 3}, ["row 2", "approach2", "3", "-1 or +1"]),
-        ({"qw": 1, "qx": 0, "qy": 0, "qz": ""}, ["row 2", "qw ... qz", "3 of 4", "whole"]),
-        ({"sigma_mm": -1}, ["row 2", "sigma_mm", "-1", "not negative"]),
-        ({"sigma_mm": 1e-300}, ["row 2", "sigma_mm", "1e-07 mm"]),
-        ({"sigma_mm": 1e12}, ["row 2", "sigma_mm", "10 km"]),
+        ({"approach1": 1, "approach2": 3}, ["line 2", "approach2", "3", "-1 or +1"]),
+        ({"qw": 1, "qx": 0, "qy": 0, "qz": ""}, ["line 2", "qw ... qz", "3 of 4", "whole"]),
+        ({"sigma_mm": -1}, ["line 2", "sigma_mm", "-1", "not negative"]),
+        ({"sigma_mm": 1e-300}, ["line 2", "sigma_mm", "1e-07 mm"]),
+        ({"sigma_mm": 1e12}, ["line 2", "sigma_mm", "10 km"]),
         ({"sigma_mm": 1, "sigma_x_mm": 1, "sigma_y_mm": 1, "sigma_z_mm": 1}, ["sigma_mm and sigma_x_mm"]),
-        ({"payload_kg": -2}, ["row 2", "payload_kg", "-2", "not negative"]),
-        ({"temperature_c": -300}, ["row 2", "temperature_c", "-300", "absolute zero"]),
-        ({"tau1_nm": 1e200, "tau2_nm": 0}, ["row 2", "tau1_nm", "no recorded value"]),
+        ({"payload_kg": -2}, ["line 2", "payload_kg", "-2", "not negative"]),
+        ({"temperature_c": -300}, ["line 2", "temperature_c", "-300", "absolute zero"]),
+        ({"tau1_nm": 1e200, "tau2_nm": 0}, ["line 2", "tau1_nm", "no recorded value"]),
         ({"sigma_x_mm": 1}, ["no column sigma_y_mm"]),
-        ({"temperature_c": "warm"}, ["row 2", "temperature_c", "'warm'", "number"]),
+        ({"temperature_c": "warm"}, ["line 2", "temperature_c", "'warm'", "number"]),
         ({"payload_kg": "1,5"}, ["payload_kg"]),
         ({"q3_rad": 0.1}, ["q3_rad", "2 motors"]),
     ],

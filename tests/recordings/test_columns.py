@@ -47,7 +47,7 @@ def test_a_column_that_is_there_twice_but_for_capitals_is_kept_apart(tmp_path):
 )
 def test_what_no_row_can_hold_is_refused_with_its_range_and_source(tmp_path, column, value, words):
     file = write(tmp_path, f"q1_rad,x_mm,y_mm,z_mm,{column}", "0,0,0,0,1", f"0.5,1,2,3,{value}")
-    with pytest.raises(InputError, match=rf"row 3, column {column}.*{words}.*allowed is"):
+    with pytest.raises(InputError, match=rf"line 3, column {column}.*{words}.*allowed is"):
         read_recordings(file)
 
 

@@ -44,10 +44,10 @@ def test_a_table_of_measured_points_is_none(tmp_path: Path) -> None:
         (lambda t: t.drop(columns="q2_m"), "has 1 of them: is this the right robot"),
         (lambda t: t.rename(columns={"q2_m": "q2 rad"}), "mean 'q2 rad'"),
         (lambda t: t.drop(columns=["tau1_nm", "f2_n"]), "what the motors did stands in"),
-        (lambda t: t.assign(q1_rad=[10.0, 400.0, 20.0]), "row 3, column q1_rad.*q1_deg"),
+        (lambda t: t.assign(q1_rad=[10.0, 400.0, 20.0]), "line 3, column q1_rad.*q1_deg"),
         (lambda t: t.assign(q1_deg=1.0), "has a position already"),
         (lambda t: t.assign(q3_rad=1.0), "the arm has 2 motors"),
-        (lambda t: t.assign(tau1_nm=["1", "x", "3"]), "row 3, column tau1_nm"),
+        (lambda t: t.assign(tau1_nm=["1", "x", "3"]), "line 3, column tau1_nm"),
         (lambda t: t.assign(payload_kg=-1.0), "payload_kg"),
     ],
 )  # fmt: skip

@@ -23,6 +23,7 @@ def test_what_colours_stand_for_is_shown_in_the_colours_themselves(tmp_path: Pat
             assert f'<i style="border-color: {key.colour}"></i>{key.words}' in told, name
             assert key.colour in drawn or key.words == "what it added", name
         assert not re.search(r"\b(dark|orange|blue|pale|grey):", told, re.IGNORECASE), name
+    assert '<span class="key dots">' in shown["friction"], "rows are dots"
     lines = re.findall(r'<path[^>]*stroke="var\(--(measured|before|after)[^>]*>', shown["torque"])
     dashed = re.findall(r'<path[^>]*stroke="var\(--(\w+)[^>]*stroke-dasharray', shown["torque"])
     assert set(lines) == {"measured", "before", "after"}

@@ -56,7 +56,14 @@ def test_units_and_signs_between_are_guessed_and_said(units, separator):
 
 def test_decimal_commas_and_the_modified_convention():
     same(parse_dh_table(rows(separator=";", comma=True), "UR5e"))
+    same(parse_dh_table(rows(separator=" ", comma=True), "UR5e"))
     assert parse_dh_table(rows(), "arm", "modified").dh.convention == "modified"
+
+
+@pytest.mark.parametrize("text", ["0,1625,90,0,5,q1", "a,alpha,d,theta\n0,5,90,0,q1", "0,4,q1,90"])
+def test_commas_that_part_cells_and_may_be_decimal_ones_are_named(text):
+    with pytest.raises(InputError, match="With decimal commas, part the cells by ; or tabs"):
+        parse_dh_table(text, "arm")
 
 
 @pytest.mark.parametrize(

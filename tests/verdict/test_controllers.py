@@ -48,7 +48,9 @@ def test_who_loads_the_file_is_told_not_to_reset_zeros_as_well(tmp_path: Path) -
     model = replace(case.verdict.model, arm=ur5e())
     zero = found("joint_offset", "joint 4", Parameter("offset", "rad", -3e-3, 1e-5))
     verdict = replace(case.verdict, model=model, effects=(*case.verdict.effects, zero))
-    write_work_order(Subject(verdict), tmp_path)
+    tables = write_work_order(Subject(verdict), tmp_path)
+    assert tables == ("zero_offsets.csv", "corrected_dh.csv", "ur_kinematics.yaml")
+    assert all((tmp_path / name).is_file() for name in tables)
     for name in ("ur_kinematics.yaml", "work-order.html"):
         assert "never as well" in (tmp_path / name).read_text()
     assert set(yaml.safe_load((tmp_path / "ur_kinematics.yaml").read_text())) == {"kinematics"}

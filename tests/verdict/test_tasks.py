@@ -18,7 +18,7 @@ from armscope.physics.transmission import BACKLASH
 from armscope.verdict.contributions import Repair, contributions
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.family_cures import cure_of_family
-from armscope.verdict.tasks import task_of
+from armscope.verdict.tasks import Task, task_of
 from tests.report import verdicts
 from tests.robot.test_urdf import build as build_urdf
 
@@ -205,6 +205,15 @@ def test_a_urdf_is_corrected_at_the_joint_that_its_file_names() -> None:
     assert task.change == "joint origin"
     assert f"Correct link 3, joint {arm.joint_names[2]}'s origin, in the controller's model" in task.instruction
     assert '<origin xyz="' in task.instruction
+    assert "along its parent link's axes; what is told along x, y and z is along the joint's own" in task.instruction
+
+
+def test_a_heading_says_a_place_once() -> None:
+    told = Task("", "payload", "payload data", "", "", "", "")
+    assert told.headed(", ") == "Payload data"
+    assert replace(told, place="instrument", change="instrument").headed(", ") == "Instrument"
+    assert replace(told, place="joint 2", change="mastering").headed(": ") == "Joint 2: mastering"
+    assert replace(told, place="whole arm", change="").headed(": ") == "Whole arm"
 
 
 def test_the_card_and_the_work_order_say_the_same_of_every_effect() -> None:

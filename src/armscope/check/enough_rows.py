@@ -23,9 +23,9 @@ def still(recordings: Recordings) -> list[Suspicion]:
     if moving(recordings.motor_angles).any():
         return []
     if len(recordings) >= TABLE.rows:
-        return [Suspicion("problem", "no joint moves")]
+        return [Suspicion("problem", "every joint stands still")]
     cure = f"A diagnosis needs {TABLE.rows} rows at least, in different poses."
-    return [Suspicion("problem", f"{_rows(recordings)} in which no joint moves", cure, TOO_SHORT)]
+    return [Suspicion("problem", f"{_rows(recordings)} in which every joint stands still", cure, TOO_SHORT)]
 
 
 def too_few(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:

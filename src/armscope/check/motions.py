@@ -16,8 +16,9 @@ from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_load import unstated_load, with_a_load
 from armscope.check.motion_mistakes import mistakes
 from armscope.check.motion_readings import Samples
-from armscope.check.suspicion import TOO_SHORT, Suspicion, verdict_lines
+from armscope.check.suspicion import SAYS_MORE, TOO_SHORT, Suspicion, first_of_suspicions, verdict_lines
 from armscope.core.sampling import spread_evenly
+from armscope.core.told import InWords
 from armscope.core.types import Array
 from armscope.motion.check import channels, doubts_about, refuse_other_joints, refuse_unknown_gains, too_short
 from armscope.motion.samples.spikes import without_spikes
@@ -27,8 +28,8 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 
 
-@dataclass(frozen=True)
-class MotionCheck:
+@dataclass(frozen=True, repr=False)
+class MotionCheck(InWords):
     """What was seen: the contents in lines, and what looks wrong."""
 
     contents: tuple[str, ...]
@@ -43,6 +44,10 @@ class MotionCheck:
         """Contents and suspicions as plain data."""
         told = [vars(each) for each in self.suspicions]
         return {"problems": self.has_problems, "suspicions": told, "contents": list(self.contents)}
+
+    def sentences(self) -> tuple[str, ...]:
+        """What looks wrong, in which table, and what says more."""
+        return first_of_suspicions(self.suspicions), f"{self.contents[0]}.", SAYS_MORE
 
     def text(self) -> str:
         """The report as plain text."""
@@ -78,10 +83,11 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
             found.append(unstated_load(mass))
         found += mistakes(samples, arm, Channels.of(even, arm))
         found += other_clock(even, runs, arm)
-    return MotionCheck(tuple(_contents(even)), tuple(found))
+    return MotionCheck(tuple(contents_of_motion(even)), tuple(found))
 
 
-def _contents(motions: Motions) -> Iterator[str]:
+def contents_of_motion(motions: Motions) -> Iterator[str]:
+    """How much was recorded of each run, and how far each joint's position, and torque, force or current, goes."""
     yield f"{motions.source}: {len(motions)} samples of {motions.n_motors} motors, {motions.kind}"
     for run in motions.runs:
         time = motions.time[motions.run == run]
@@ -90,7 +96,9 @@ def _contents(motions: Motions) -> Iterator[str]:
     for j in range(motions.n_motors):
         factor, unit = (1e3, "mm") if motions.sliding[j] else (180 / np.pi, "deg")
         low, high = factor * motions.q[:, j].min(), factor * motions.q[:, j].max()
-        yield f"  q{j + 1}: {low:8.2f} ... {high:8.2f} {unit}, {motions.kind} {_range(motions.effort[:, j])}"
+        kind, of_kind = ("force", "N") if motions.sliding[j] else ("torque", "N m")
+        kind, of_kind = ("current", "A") if motions.kind == "current" else (kind, of_kind)
+        yield f"  q{j + 1}: {low:8.2f} ... {high:8.2f} {unit}, {kind} {_range(motions.effort[:, j])} {of_kind}"
 
 
 def _range(values: Array) -> str:
@@ -110,7 +118,7 @@ def _too_short(motions: Motions) -> Iterator[Suspicion]:
 
 def _leaps(motions: Motions) -> Iterator[Suspicion]:
     for j, row, step in leaps(motions):
-        rows = f"from row {row + 1} to row {row + 2}"
+        rows = f"from line {row + 1} to line {row + 2}"
         statement = f"q{j + 1} leaps by {np.degrees(step):.0f} deg {rows}: no joint moves so"
         cure = (
             "Was it recorded within one turn, and filtered or interpolated since? Count the turns on before that. "

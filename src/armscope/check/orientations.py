@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from armscope.calibration.model import SetUp
 from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
-from armscope.check.suspicion import Suspicion
+from armscope.check.suspicion import ORIENTED, Suspicion
 from armscope.core.types import Array
 from armscope.measurement.channel import Channel, ChannelResiduals
 from armscope.measurement.constants import WEIGHTS
@@ -106,13 +106,14 @@ def orientation_mistakes(rows: SetUp, state: State, quaternions: Array | None) -
     if best != 0 and spreads[best] < min(TRIALS.clearly_better * spreads[0], NOT_THE_TOOLS_RAD):
         statement, cure, _ = READINGS[best]
         seen = f" (the tool's orientation is usually {declared:.3g} degrees off as declared, {least:.2g} degrees so)"
-        return [Suspicion("problem", statement + seen, cure)]
+        alone = " Until then positions are used alone." if spreads[0] > NOT_THE_TOOLS_RAD else ""
+        return [Suspicion("problem", statement + seen, cure + alone, ORIENTED)]
     if spreads[0] > NOT_THE_TOOLS_RAD:
         statement = (
             f"the orientations scatter by {declared:.0f} degrees against the arm's, in whatever order they are read"
         )
         cure = "Are Euler angles in another sequence or unit, or are they of other rows? Positions are used alone."
-        return [Suspicion("hint", statement, cure)]
+        return [Suspicion("hint", statement, cure, ORIENTED)]
     return []
 
 

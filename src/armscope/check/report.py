@@ -11,10 +11,18 @@ from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.enough_rows import still, too_few
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import BESIDE, TOO_SHORT, Suspicion, verdict_lines
+from armscope.check.suspicion import (
+    BESIDE,
+    SAYS_MORE,
+    TOO_SHORT,
+    Suspicion,
+    first_of_suspicions,
+    verdict_lines,
+)
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.check.targets import named_row_by_row
 from armscope.core.files import plain_values
+from armscope.core.told import InWords
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.schema import ANOTHER_MODEL
@@ -23,8 +31,8 @@ NOT_A_DRIVER = ("orientation", "sigma")
 """What may well be the same in every row."""
 
 
-@dataclass(frozen=True)
-class CheckReport:
+@dataclass(frozen=True, repr=False)
+class CheckReport(InWords):
     """Contents of a table and, where an arm was given, how they fit it."""
 
     contents: Contents
@@ -46,6 +54,11 @@ class CheckReport:
             "consistency": fit and {key: value for key, value in fit.items() if key != "suspicions"},
         }
         return dict(plain_values(content))
+
+    def sentences(self) -> tuple[str, ...]:
+        """What looks wrong, in which table, and what says more."""
+        about = f"{self.contents.source}: {self.contents.rows} rows, {len(self.contents.runs)} run(s)."
+        return first_of_suspicions(self.suspicions), about, SAYS_MORE
 
     def text(self) -> str:
         """The report as plain text."""

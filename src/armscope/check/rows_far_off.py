@@ -11,6 +11,7 @@ from armscope.calibration.model import SetUp, set_up
 from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
+from armscope.core.grouping import same_configuration
 from armscope.core.types import Array, Indices
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
@@ -72,11 +73,27 @@ def rows_far_off(arm: Arm, recordings: Recordings, place: Callable[[SetUp], Stat
 def _of_the_row_before(table: Recordings, predicted: Array, far: Indices, near: float) -> Array:
     """(n,) bool: which of rows far off hold the point of the row before in their run, to within ``near`` m.
 
-    Not where the row before holds theirs: then the two exchanged their points.
+    The row before, or the one before of the same target, where the arm stood elsewhere: at one pose another target's
+    point is another label. Not where that row holds theirs: then the two exchanged their points.
     """
-    off = np.linalg.norm(table.positions[far] - predicted[far - 1], axis=1)
-    exchanged = np.linalg.norm(table.positions[far - 1] - predicted[far], axis=1) < near
-    return np.asarray((far > 0) & (table.run[far] == table.run[far - 1]) & (off < near) & ~exchanged)
+    pose = same_configuration(table.motor_angles)
+    found = np.zeros(len(far), bool)
+    for before in (far - 1, _before_of_its_target(table)[far]):
+        off = np.linalg.norm(table.positions[far] - predicted[before], axis=1)
+        exchanged = np.linalg.norm(table.positions[before] - predicted[far], axis=1) < near
+        elsewhere = (before >= 0) & (table.run[far] == table.run[before]) & (pose[far] != pose[before])
+        found |= elsewhere & (off < near) & ~exchanged
+    return found
+
+
+def _before_of_its_target(table: Recordings) -> Indices:
+    """(N,) the row before of the same target in the same run; -1 for none."""
+    last: dict[tuple[str, str], int] = {}
+    before = np.full(len(table), -1)
+    for row, own in enumerate(zip(table.run.tolist(), table.target.tolist(), strict=True)):
+        before[row] = last.get(own, -1)
+        last[own] = row
+    return before
 
 
 def _targets_read(rows: SetUp, state: State, far: Indices, near: float) -> Array:
@@ -135,6 +152,10 @@ def _told_alone(table: Recordings, alone: Indices, distance: Array) -> Suspicion
 
 
 def ids_of(table: Recordings, rows: Indices) -> str:
-    """Rows by run and id, ten at most."""
-    names = [f"{table.run[row]}: {table.id[row]}".removeprefix(": ") for row in rows[:10]]
+    """Rows by run and id, ten at most; by target, too, where several have the id."""
+    names = []
+    for row in rows[:10]:
+        alike = np.count_nonzero((table.run == table.run[row]) & (table.id == table.id[row])) > 1
+        of_target = f" ({table.target[row]})" if alike and table.target[row] else ""
+        names.append(f"{table.run[row]}: {table.id[row]}{of_target}".removeprefix(": "))
     return ", ".join(names) + (", ..." if len(rows) > 10 else "")

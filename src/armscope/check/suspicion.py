@@ -17,8 +17,11 @@ APPROACH = "approach"
 SETTLED = "settling"
 """Kind of a suspicion that angles and points were not taken at one moment."""
 
-BESIDE = (GRAVITY, APPROACH, SETTLED)
-"""Kinds of hints that stand above a diagnosis, which is made all the same."""
+ORIENTED = "orientations"
+"""Kind of a suspicion about measured orientations: nobody needs them, and what is not the tool's is left out."""
+
+BESIDE = (GRAVITY, APPROACH, SETTLED, ORIENTED)
+"""Kinds of what stands above a diagnosis, which is made all the same."""
 
 TOO_SHORT = "too short"
 """Kind of a problem with which nothing can be diagnosed, whatever a user asks for."""
@@ -44,6 +47,17 @@ def verdict_lines(suspicions: tuple[Suspicion, ...]) -> list[str]:
         return ["nothing looks wrong"]
     ordered = sorted(suspicions, key=lambda each: each.weight != "problem")
     return [f"{each.weight}: {each.text()}" for each in ordered]
+
+
+SAYS_MORE = "text() says all that was seen, to_json() gives it as plain data."
+
+
+def first_of_suspicions(suspicions: tuple[Suspicion, ...]) -> str:
+    """The gravest one in a sentence, and how many there are beside it."""
+    first, *others = verdict_lines(suspicions)
+    told = f"{first[0].upper()}{first[1:]}"
+    told = told if told.endswith((".", "?")) else f"{told}."
+    return f"{told} And {len(others)} more." if others else told
 
 
 def refuse_problems(suspicions: Sequence[Suspicion], source: object, anyway: str = "diagnoses") -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -117,6 +118,8 @@ def diagnose(
 
     if run or first_id is not None:
         table = table.of_runs(run or (), first_id)
+    if not orientation:  # what nobody uses is not judged either
+        table = replace(table, orientation=None)
     if not anyway:
         refuse_unusable(arm, table)
 
@@ -155,10 +158,11 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     from armscope.check.suspicion import BESIDE
     from armscope.core.numerals import rounded
     from armscope.verdict.payload_place import of_payloads
-    from armscope.verdict.schema import MISLABELLED, TOOL_AS_STATED
+    from armscope.verdict.schema import MISLABELLED, TOOL_AS_STATED, TOOL_EXCHANGED
 
     obstacle = verdict.notices[-1:] if verdict.mismatch is None else of_payloads(verdict)
-    yield from (each.text for each in verdict.notices if each.kind in ("check", TOOL_AS_STATED, *BESIDE))
+    told = ("check", TOOL_AS_STATED, TOOL_EXCHANGED, *BESIDE)
+    yield from (each.text for each in verdict.notices if each.kind in told)
     yield from (each.text for each in obstacle)
     if any(each.kind == "fewer rows than parameters" for each in obstacle):
         yield f"of these runs and targets a diagnosis needs {rows_needed(arm, table)} rows at least."

@@ -24,12 +24,13 @@ from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.gained import more_or_less, more_sigmas
 from armscope.comparison.levels import own_values
+from armscope.comparison.measured_points import measured_points
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import SENSE, Change, Comparison, Kind, Left, Sense
 from armscope.comparison.search import likeliest_changes
 from armscope.comparison.seen import seen
-from armscope.comparison.sets import of_same_poses, stacked
+from armscope.comparison.sets import left_out_context, of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.standing import stands
 from armscope.comparison.steps import as_steps
@@ -85,6 +86,8 @@ def compare(arm: Arm, recordings: Mapping[str, Recordings], of_arms: bool = Fals
         noisier=noisy,
         bad_shots=bad_shots(model, table, names),
         other_load=other_load(arm, table.motor_angles, changes, _worse_as_a_load(model, everything, taken)),
+        points=measured_points(model, taken, names),
+        left_out=left_out_context(recordings),
     )
 
 

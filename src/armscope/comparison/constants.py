@@ -38,6 +38,11 @@ class ComparingRules(Constants):
         unit="standard errors",
     )
     named: int = constant(3, "recordings with a change that are told by name", "judgement: as many are read")
+    moved_point: float = constant(
+        3.0,
+        "times the noise per axis, beyond which a measured point surely sits elsewhere on the flange",
+        "judgement: a reflector that is put on again comes back to less",
+    )
     named_shots: int = constant(5, "bad shots that are told by name", "judgement: as many are looked at", unit="rows")
     many_alike: int = constant(
         8, "causes that explain a change as well, more of which leave it without a name", "judgement: nobody tests more"

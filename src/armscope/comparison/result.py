@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from armscope.comparison.bad_shots import BadShot, told_of_shots
 from armscope.comparison.constants import COMPARING
+from armscope.comparison.measured_points import MeasuredPoint, told_of_points
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
 from armscope.core.files import plain_values
@@ -147,6 +148,8 @@ class Comparison(InWords):
         other_load: that another load at the flange would look like the changes; "" where it would not.
         of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
         bad_shots: rows that lie far off whatever is fitted, and count for little.
+        points: where the measured point of each recording sits on the flange.
+        left_out: what only some recordings hold, which is not looked at; "" where there is none.
     """
 
     arm: str
@@ -164,6 +167,8 @@ class Comparison(InWords):
     other_load: str = ""
     noisier: tuple[Noisier, ...] = ()
     bad_shots: tuple[BadShot, ...] = ()
+    points: tuple[MeasuredPoint, ...] = ()
+    left_out: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, null for what is no number."""
@@ -183,15 +188,27 @@ class Comparison(InWords):
         chance = f"p = {p:.2g}" if p else "p < 1e-300"  # below what numbers hold; nothing is certain
         nothing = "all are alike" if self.of_arms else "nothing changed"
         said = f"{self.told} ({chance} that {nothing})." if self.changes else ""
+        moved, a_zero = self.told_of_points, any(each.is_moved and each.may_be_zero for each in self.points)
         among = "; ".join(", ".join(family) for family in self.same_poses or (self.names,) if len(family) > 1)
         if not said and among and self.p_nothing_changed <= self.level:
             differs = "These arms differ" if self.of_arms else "Something changed"
             said = f"{differs} ({among}; {chance} that {nothing}), and no cause that was tried can be what it was."
         elif not said and among:
-            alike = "No arm is unlike the others" if self.of_arms else "Nothing changed"
-            alike = "No cause differs" if self.noisier else alike
+            alike = "No arm is unlike the others" if self.of_arms else f"Nothing{' of the arm' * bool(moved)} changed"
+            alike = "No cause differs" if self.noisier or (moved and a_zero) else alike
             said = f"{alike} that these recordings show ({among}; {chance})."
-        return " ".join(filter(None, (said, told_of(self.noisier), self.other_load, self.not_comparable)))
+        return " ".join(filter(None, (said, self.told_beside)))
+
+    @property
+    def told_beside(self) -> str:
+        """What stands beside the changes, or in their place."""
+        noisier = f"{told_of(self.noisier)} {self.left_out}".strip() if self.noisier else ""
+        return " ".join(filter(None, (noisier, self.other_load, self.told_of_points, self.not_comparable)))
+
+    @property
+    def told_of_points(self) -> str:
+        """Which measured points moved on the flange; of several arms, whose targets differ, nothing."""
+        return "" if self.of_arms else told_of_points(self.points)
 
     @property
     def told(self) -> str:
@@ -244,7 +261,7 @@ class Comparison(InWords):
         """In words, a line per cause and number."""
         lines = [self.headline, *([] if self.changes else [self.would_be_seen] * bool(self.would_be_seen))]
         lines.append(f"noise {self.noise_mm:.3g} mm per axis, {self.tried} possible changes tried")
-        lines += filter(None, [told_of_shots(self.bad_shots)])
+        lines += filter(None, [told_of_shots(self.bad_shots), "" if self.noisier else self.left_out])
         for each in self.changes:
             kind = self.became(each) if self.of_arms else each.kind
             lines.append(f"{each.title}, {', '.join(each.where)}: {kind}, moves the tool by {each.rms_mm:.3g} mm")

@@ -13,6 +13,7 @@ from armscope.check.preconditions import check_table
 from armscope.comparison.constants import COMPARING
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
+from armscope.core.words import enumerated
 from armscope.fitting.design_matrix import point_columns
 from armscope.fitting.linearisation import linearised
 from armscope.physics.effect import Term
@@ -22,6 +23,7 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 
 CONTEXT = ("time", "temperature", "payload", "approach", "speed", "torque", "sigma")
+CONTEXT_COLUMNS = ("time_s", "temperature_c", "payload_kg", "approach1 …", "dq1_rad_s …", "tau1_nm …", "sigma_mm")
 
 
 def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings, Indices]:
@@ -134,6 +136,22 @@ def columns_of_rows(model: FittedModel, table: Recordings, terms: Sequence[Term]
 
 
 _ROWS = ("motor_angles", "positions", "run", "target", "id")
+
+
+def left_out_context(recordings: Mapping[str, Recordings]) -> str:
+    """What some recordings hold and others do not, and so is not looked at, and what to do; "" where there is none."""
+    told = []
+    for name, column in zip(CONTEXT, CONTEXT_COLUMNS, strict=True):
+        having = [each for each, table in recordings.items() if getattr(table, name) is not None]
+        if 0 < len(having) < len(recordings):
+            of_them = enumerated([f'"{each}"' for each in having]) if len(having) <= COMPARING.named else "some"
+            told.append(f"{column} (only in {of_them})")
+    if not told:
+        return ""
+    return (
+        f"Left out, as not every recording has it: {', '.join(told)}. So no cause that follows it could be told: "
+        "record it in all of them."
+    )
 
 
 def _joined(values: list[Array | None]) -> Array | None:

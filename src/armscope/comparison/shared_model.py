@@ -38,6 +38,8 @@ class SharedModel:
     def __init__(self, arm: Arm, table: Recordings, group: Indices, of_arms: bool = False) -> None:
         self.group = np.repeat(group, 3)
         model = fit_frames(arm, table)
+        self.arm = arm
+        self.tools = {part.placed.variant: arm.tool + part.values for part in model.tools}
         residual = point_residuals(model, table)
         weight = np.repeat(np.sqrt(robust.huber_weights(residual, np.ones(len(residual)), 0.0)), 3)
         placed = [each for each in library(arm, table) if belongs_to_the_arm(each)]

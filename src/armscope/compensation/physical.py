@@ -282,6 +282,6 @@ def with_measured_tool(model: FittedModel, rows: Recordings) -> Arm:
             shift[(rows.target == target) & ((rows.run == run) if run is not None else True)] = part.values[:3]
     other = np.flatnonzero(np.abs(shift - shift[:1]).max(axis=1, initial=0.0) > 0)
     if len(other):
-        place, rule = f"row {other[0] + 2}, column target", "a path is of one measured point of the tool"
+        place, rule = f"line {other[0] + 2}, column target", "a path is of one measured point of the tool"
         raise InputError(rows.source, place, str(rows.target[other[0]]), rule, "Split it by target and run.")
     return replace(model.arm, tool=model.arm.tool + (shift[0] if len(rows) else 0.0))

@@ -170,7 +170,7 @@ def _refuse_missing_context(fitted: FittedModel, rows: Recordings, identified: I
                 f"{missing.sum()} rows state no {column}: the arm carries nothing, as in the model's recordings"
             )
             continue
-        place = "line 1" if missing.all() else f"row {int(np.argmax(missing)) + 2}, column {column}"
+        place = "line 1" if missing.all() else f"line {int(np.argmax(missing)) + 2}, column {column}"
         cure = "Write 0 where the arm carries nothing." if column == "payload_kg" else "Add it to the table."
         rule = "an effect in the model follows it, so it must be known in every row"
         raise InputError(rows.source, place, f"no column {column}" if missing.all() else "nothing", rule, cure)

@@ -145,7 +145,7 @@ class Compensated(InWords):
         if len(refused):
             raise InputError(
                 source,
-                f"row {refused[0] + 2} of the path",
+                f"line {refused[0] + 2} of the path",
                 str(self.reasons[refused[0]]),
                 f"every row must be possible, {len(refused)} of {len(self.reasons)} are refused",
                 "The table of commands says why for each row; mend the path or leave these rows out yourself.",

@@ -73,8 +73,8 @@ DATA_FRAME = "data frame"
 
 def _of_a_frame(text: str) -> str:
     """Lines of a CSV file as rows of a data frame."""
-    own = re.sub(r"\brow (\d+)", lambda found: f"row {int(found.group(1)) - 2}", text)
-    return re.sub(r"\bline 1\b", "columns", own)
+    own = re.sub(r"\bline 1\b", "columns", text)
+    return re.sub(r"\bline (\d+)", lambda found: f"row {int(found.group(1)) - 2}", own)
 
 
 def _quote(value: object) -> str:

@@ -58,12 +58,14 @@ def read_variants(path: Path | str) -> list[Variant]:
     for number, row in enumerate(rows, start=2):
         if len(row) != len(header):
             found = f"{len(row)} values" if row else "nothing"
-            raise InputError(path, f"row {number}", found, f"every row has the {len(header)} values that line 1 names")
+            raise InputError(path, f"line {number}", found, f"every row has the {len(header)} values that line 1 names")
         variants.append(_variant(path, number, dict(zip(header, row, strict=True))))
     seen: dict[str, int] = {}
     for number, variant in enumerate(variants, start=2):
         if variant.id in seen:
-            raise InputError(path, f"row {number}, column id", variant.id, f"ids differ, row {seen[variant.id]} has it")
+            raise InputError(
+                path, f"line {number}, column id", variant.id, f"ids differ, line {seen[variant.id]} has it"
+            )
         seen[variant.id] = number
     return variants
 
@@ -94,5 +96,5 @@ def _variant(path: Path | str, number: int, row: dict[str, str]) -> Variant:
         )
     except pydantic.ValidationError as error:
         problem = error.errors()[0]
-        place = f"row {number}" + (f", column {problem['loc'][0]}" if problem["loc"] else "")
+        place = f"line {number}" + (f", column {problem['loc'][0]}" if problem["loc"] else "")
         raise InputError(path, place, problem["input"], problem["msg"].lower()) from error

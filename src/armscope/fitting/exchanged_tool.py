@@ -22,7 +22,7 @@ class ExchangedTool:
     Attributes:
         model: the arm with its frames fitted, the tool free in every run.
         shared_mm, own_mm: what one tool for all runs and one per run leave of the usual point, per axis.
-        point_mm: largest difference of a coordinate between a target's tool points; None where these are no others.
+        point_mm: largest distance between a target's tool points; None where these are no others.
         turn_rad: largest angle between a target's tools; None where orientations do not show any.
     """
 

@@ -54,15 +54,17 @@ def read_fleet(path: Path) -> list[Member]:
         cells = {name: str(content.get(name, "")).strip() for name in (*COLUMNS, *OPTIONAL)}
         for name in COLUMNS:
             if not cells[name]:
-                raise InputError(path, f"row {row}, column {name}", "nothing", "every row has one")
+                raise InputError(path, f"line {row}, column {name}", "nothing", "every row has one")
         member = Member(
             cells["arm"], cells["type"], Path(cells["robot"]), Path(cells["recordings"]), cells["date"], cells["run"]
         )
         if FORBIDDEN & set(member.name) or member.name.startswith("."):
-            raise InputError(path, f"row {row}", member.name, "arm, date and run name a folder: no slash, no first dot")
+            raise InputError(
+                path, f"line {row}", member.name, "arm, date and run name a folder: no slash, no first dot"
+            )
         if member.name in known:
-            rule = f"one diagnosis per arm, date and run: row {known[member.name]} is the same"
-            raise InputError(path, f"row {row}", member.name, rule)
+            rule = f"one diagnosis per arm, date and run: line {known[member.name]} is the same"
+            raise InputError(path, f"line {row}", member.name, rule)
         known[member.name] = row
         members.append(member)
     return members

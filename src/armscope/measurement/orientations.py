@@ -80,7 +80,7 @@ class OrientationChannel(Channel):
         if np.median(size) > NOT_THE_TOOLS_RAD:
             return "orientations not the arm's", (
                 f"The measured orientations lie {np.degrees(np.median(size)):.3g} degrees (median) from the arm's, "
-                "however the tool is turned: positions alone were used. Are the quaternions in the order w, x, y, z?"
+                "however the tool is turned: positions alone were used. `armscope check` tries other orders."
             )
         return None
 

@@ -56,8 +56,9 @@ class PositionChannel(Channel):
         return replace(model, bases=bases, tools=tools)
 
     def tools_apart(self, model: FittedModel, target: str) -> float:
-        """Largest difference of a coordinate between a target's tool points, m."""
-        return float(np.ptp([part.values for part in model.tools if part.placed.variant == target], axis=0).max())
+        """Largest distance between a target's tool points, m."""
+        points = np.array([part.values for part in model.tools if part.placed.variant == target])
+        return float(np.linalg.norm(points[:, None] - points, axis=2).max())
 
 
 def moved_base(base: Base, twist: Array) -> Base:

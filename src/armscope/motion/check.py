@@ -142,7 +142,7 @@ def _cut_off(motions: Motions, found: Rails) -> list[Notice]:
             rows = np.flatnonzero(found.at[:, j])
             values = " and ".join(dict.fromkeys(f"{each:.4g}" for each in sorted(found.values[j])))
             noise = ", with noise on it," if found.noisy[j] else ","
-            where = f"{values}, the farthest it goes{noise} in {len(rows)} samples, first in row {rows[0] + 2}"
+            where = f"{values}, the farthest it goes{noise} in {len(rows)} samples, first in line {rows[0] + 2}"
             text = (
                 f"{name} stays at {where}: it is cut off there, or the drive is at its limit, and what lies beyond is "
                 f"not known. These samples, and what the low-pass mixes with them, take no part in the fit of joint "
@@ -158,7 +158,7 @@ def _unread(motions: Motions, at: NDArray[np.bool_]) -> list[Notice]:
     for j in np.flatnonzero(idle.any(axis=0)):
         rows = np.flatnonzero(idle[:, j])
         text = (
-            f"{channels(motions)[j]} says {motions.effort[rows[0], j]:.4g} from row {rows[0] + 2} on, in {len(rows)} "
+            f"{channels(motions)[j]} says {motions.effort[rows[0], j]:.4g} from line {rows[0] + 2} on, in {len(rows)} "
             f"samples in all, while joint {j + 1} speeds up or turns back: the channel was not read. These samples "
             f"take no part in the fit of joint {j + 1}. See whether it is connected."
         )
@@ -209,7 +209,7 @@ def _refuse_temperatures(motions: Motions) -> None:
         rule = f"an arm is between {least:g} and {most:g} degrees Celsius warm"
         cure = "Are these kelvin? Take 273.15 from them. Where nothing was read, leave the cell empty."
         column = f"column temperature_c, or temperature{j + 1}_c"
-        raise InputError(motions.source, f"row {row + 2}, {column}", float(motions.temperature[row, j]), rule, cure)
+        raise InputError(motions.source, f"line {row + 2}, {column}", float(motions.temperature[row, j]), rule, cure)
 
 
 def _coarse(motions: Motions) -> list[Notice]:

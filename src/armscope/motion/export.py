@@ -6,6 +6,7 @@ What these formats have no place for (springs, cables, load friction, delays, of
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ from armscope.motion.model.file import save_motion_model
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.mujoco_model import mujoco_model
 from armscope.motion.pipeline import MotionDiagnosis
-from armscope.motion.simulated_bodies import as_comment, bodies, joint_numbers, not_in_a_file
+from armscope.motion.simulated_bodies import as_comment, bodies, joint_numbers, not_in_a_file, stated_payloads
 from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
@@ -69,21 +70,26 @@ def export_motion(model: MotionModel, selected: SelectedCauses, factor: Array, f
         folder: where to.
     """
     folder = Path(folder)
-    write_text(folder / URDF, corrected_urdf(model, folder))
-    write_text(folder / MUJOCO, mujoco_model(model))
+    payloads = stated_payloads(selected)
+    write_text(folder / URDF, corrected_urdf(model, folder, payloads))
+    write_text(folder / MUJOCO, mujoco_model(model, payloads))
     write_table(folder / TABLE, parameter_table(model, selected, factor))
 
 
-def corrected_urdf(model: MotionModel, folder: Path) -> str:
+def corrected_urdf(model: MotionModel, folder: Path, payloads: Sequence[float] = ()) -> str:
     """The arm as a URDF: an arm that came from one keeps its links, meshes and names; others get their chain alone.
 
     Args:
         model: the model.
         folder: where the file will stand, for paths of meshes.
+        payloads: kg, that the model's samples state, see `bodies`.
+
+    Returns:
+        The file's text; a comment names what it has no place for.
     """
     source = model.arm.description.urdf
     robot = _fresh(model.arm) if source is None else _kept(Path(source), model.arm, folder)
-    made, notes = bodies(model)
+    made, notes = bodies(model, payloads)
     numbers, also = joint_numbers(model)
     joints = {element.get("name"): element for element in robot.findall("joint")}
     links = {element.get("name"): element for element in robot.findall("link")}

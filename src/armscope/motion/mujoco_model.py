@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pinocchio as pin
@@ -15,16 +15,17 @@ from armscope.robot.model import TIP
 WRITTEN = "armscope: masses, inertias, dry friction, damping and rotors as fitted; no shapes, no contacts, no limits"
 
 
-def mujoco_model(model: MotionModel) -> str:
+def mujoco_model(model: MotionModel, payloads: Sequence[float] = ()) -> str:
     """The arm as MJCF, in m, kg, N m, N m s/rad and kg m^2, each joint at its link's origin.
 
     Args:
         model: the fitted model.
+        payloads: kg, that its samples state.
 
     Returns:
         The file's text; comments name what it has no place for.
     """
-    made, notes = bodies(model)
+    made, notes = bodies(model, payloads)
     numbers, also = joint_numbers(model)
     left = not_in_a_file(model)
     told = [WRITTEN, *notes, *also, *([f"not in this file: {'; '.join(left)}"] if left else [])]

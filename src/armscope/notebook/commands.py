@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from armscope.comparison import compare as compare_recordings
 from armscope.compensation.black_box import ErrorModel
 from armscope.compensation.compensate import compensate_black_box, compensate_physical
 from armscope.compensation.error_model_file import load_error_model
-from armscope.compensation.path import WantedPath, as_path, read_path
+from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import Identified, identified_beside, identified_on
 from armscope.compensation.predicting import predict_file, predict_rows
 from armscope.compensation.result import Compensated
@@ -31,7 +31,18 @@ from armscope.diagnosis import Settings
 from armscope.diagnosis import diagnose as diagnose_arm
 from armscope.motion.predicting import predict_motions
 from armscope.notebook.chosen import ChosenPoses, poses_by_options
-from armscope.notebook.given import Robot, Table, arm_for, arm_of, options_of, refuse_unknown, table_of
+from armscope.notebook.given import (
+    Robot,
+    Table,
+    arm_for,
+    arm_of,
+    described_file,
+    options_of,
+    refuse_less_than_two,
+    refuse_unknown,
+    table_of,
+    wanted_path,
+)
 from armscope.notebook.motion import MotionDiagnosed, check_motions, diagnose_moving, of_motion
 from armscope.notebook.notes import PosesWarning, with_notes
 from armscope.notebook.result import Diagnosed
@@ -96,7 +107,7 @@ def check(recordings: Table, robot: Robot | None = None) -> CheckReport | Motion
     """
     robot, recordings = arm_of(robot, recordings), table_of(recordings)
     if of_motion(recordings):
-        return check_motions(recordings, None if robot is None else _described(robot))
+        return check_motions(recordings, None if robot is None else described_file(robot))
     arm = None if robot is None else read_robot(robot)
     return check_table(read_recordings(recordings), arm)
 
@@ -124,11 +135,14 @@ def diagnose(
     robot, recordings = arm_for(robot, recordings), table_of(recordings)
     if of_motion(recordings):
         with threadpool_limits(1):
-            return diagnose_moving(recordings, _described(robot), **options)
+            return diagnose_moving(recordings, described_file(robot), **options)
     refuse_unknown("diagnose", options, [each.name for each in fields(Settings)])
+    settings = settings or Settings(**options)
     table, arm = read_recordings(recordings), read_robot(robot)
+    if not settings.orientation:  # what nobody uses is not judged either
+        table = replace(table, orientation=None)
     with threadpool_limits(1):  # small matrices: threads of BLAS would only wait for each other
-        return Diagnosed(**vars(diagnose_arm(arm, table, settings or Settings(**options))))
+        return Diagnosed(**vars(diagnose_arm(arm, table, settings)))
 
 
 def calibrate(recordings: Table, robot: Robot | None = None, **options: Any) -> Calibration:
@@ -207,7 +221,7 @@ def _compensated(
 ) -> Compensated:
     if isinstance(model, str | Path) and str(model).endswith(".json"):
         error_model: ErrorModel = load_error_model(model)
-        return compensate_black_box(error_model, _wanted(path, error_model.arm), chosen)
+        return compensate_black_box(error_model, wanted_path(path, error_model.arm), chosen)
     fitted = _fitted(model)
     identified = _identified(model)
     if recordings is not None:
@@ -215,7 +229,7 @@ def _compensated(
     if identified is None:
         cure = "Give the recordings of the diagnosis."
         raise InputError("recordings", "", "nothing", "the identified range must be known", cure)
-    return compensate_physical(fitted, identified, _wanted(path, fitted.arm), chosen)
+    return compensate_physical(fitted, identified, wanted_path(path, fitted.arm), chosen)
 
 
 def compare(
@@ -235,8 +249,7 @@ def compare(
     Raises:
         InputError: something that can't be used.
     """
-    if not recordings:
-        raise InputError("compare", "", "no recordings", "two or more of one arm are compared")
+    refuse_less_than_two(recordings)
     arm = read_robot(arm_for(robot, recordings[0]))
     numbered = enumerate(recordings, 1)
     named = list(names) or [str(each) if isinstance(each, str | Path) else f"{n}" for n, each in numbered]
@@ -245,13 +258,6 @@ def compare(
     tables = [read_recordings(each, arm) for each in recordings]
     with threadpool_limits(1):
         return compare_recordings(arm, dict(zip(named, tables, strict=True)), of_arms)
-
-
-def _described(robot: Robot) -> Path | str:
-    """The file of a robot: inverse dynamics needs what an `Arm` does not hold."""
-    if not isinstance(robot, str | Path):
-        raise InputError("robot", "", type(robot).__name__, "the path of robot.yaml, for a table of motions")
-    return robot
 
 
 def _fitted(model: Model) -> FittedModel:
@@ -270,12 +276,6 @@ def _identified(model: Model) -> Identified | None:
     if not isinstance(model, Diagnosed):
         return None
     return model.identified()
-
-
-def _wanted(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
-    if isinstance(path, WantedPath):
-        return path
-    return as_path(path, DATA_FRAME, arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
 
 
 def choose_poses(robot: Robot, count: int = 85, **options: Any) -> ChosenPoses:

@@ -9,7 +9,8 @@ from typing import Any
 
 import pandas as pd
 
-from armscope.core.inputs import InputError, nearest
+from armscope.compensation.path import WantedPath, as_path, read_path
+from armscope.core.inputs import DATA_FRAME, InputError, nearest
 from armscope.recordings import Recordings
 from armscope.recordings.folders import robot_for, robot_in, table_in
 from armscope.recordings.motions import Motions
@@ -42,6 +43,39 @@ def arm_for(robot: Robot | None, recordings: Table) -> Robot:
         cure = "Give it after the recordings; to `compare`, before which recordings alone stand, as robot=..."
         raise InputError("robot", "", "nothing", rule, cure)
     return robot
+
+
+def refuse_less_than_two(recordings: Sequence[object]) -> None:
+    """What is no two recordings: none, or a list of them where they are given one after the other.
+
+    Raises:
+        InputError: it is so.
+    """
+    rule = "two or more of one arm are compared"
+    listed = next((type(each).__name__ for each in recordings if isinstance(each, list | tuple)), "")
+    if listed:
+        cure = "armscope.compare(*recordings, robot=...) gives them so."
+        raise InputError("compare", "", f"a {listed}", f"{rule}, one after the other", cure)
+    if not recordings:
+        raise InputError("compare", "", "no recordings", rule)
+
+
+def described_file(robot: Robot) -> Path | str:
+    """The file of a robot: inverse dynamics needs what an `Arm` does not hold.
+
+    Raises:
+        InputError: an arm was given.
+    """
+    if not isinstance(robot, str | Path):
+        raise InputError("robot", "", type(robot).__name__, "the path of robot.yaml, for a table of motions")
+    return robot
+
+
+def wanted_path(path: WantedPath | pd.DataFrame | Path | str, arm: Arm) -> WantedPath:
+    """Wanted points as said, of a data frame or of a file."""
+    if isinstance(path, WantedPath):
+        return path
+    return as_path(path, DATA_FRAME, arm) if isinstance(path, pd.DataFrame) else read_path(path, arm)
 
 
 def options_of(function: Callable[..., Any]) -> list[str]:

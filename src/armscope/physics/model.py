@@ -181,7 +181,7 @@ def predict(model: FittedModel, recordings: Recordings) -> Array:
         row = int(np.argmin(near))
         found, reach = f"a tool point {distance[row]:.3g} m from the base", f"{model.arm.reach:.3g} m"
         rule = f"{model.arm.name} reaches {reach} at most"
-        raise InputError(recordings.source, f"row {row + 2}", found, rule, "Is the model's file as it was written?")
+        raise InputError(recordings.source, f"line {row + 2}", found, rule, "Is the model's file as it was written?")
     return model.to_measurement(tool, recordings.run)
 
 

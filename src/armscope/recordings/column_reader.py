@@ -27,7 +27,7 @@ class ColumnReader:
         self.names = Names([str(name) for name in table.columns], source)
 
     def _error(self, row: int, column: str, found: object, rule: str, cure: str = "") -> InputError:
-        return InputError(self.source, f"row {row + 2}, column {column}", found, rule, cure)
+        return InputError(self.source, f"line {row + 2}, column {column}", found, rule, cure)
 
     def _numbers(self, column: str, required: bool) -> Array:
         import pandas as pd
@@ -209,6 +209,6 @@ class ColumnReader:
                 row,
                 "id",
                 ids[row],
-                f"an id stands once per run and target, row {first + 2} has it, too",
+                f"an id stands once per run and target, line {first + 2} has it, too",
                 "Number the rows, or name the repeats' runs differently.",
             )

@@ -99,7 +99,7 @@ def read_motions(path: Path | str, n_motors: int | None = None, measured: bool =
         The samples in their order, SI units, with notes on what was passed over.
 
     Raises:
-        InputError: names file, row (line of the file), column, the value found, the rule and the cure.
+        InputError: names file, line, column, the value found, the rule and the cure.
     """
     path = Path(path)
     return as_motions(read_text_table(path), path, n_motors, measured)

@@ -177,7 +177,7 @@ def read_recordings(path: Path | str, n_motors: int | None = None, measured: boo
         The rows in their order, SI units, with notes on what was passed over.
 
     Raises:
-        InputError: names file, row (line of the file), column, the value found, the rule and the cure.
+        InputError: names file, line, column, the value found, the rule and the cure.
     """
     path = Path(path)
 

@@ -63,7 +63,7 @@ def _table(path: Path, check: Callable[[list[str]], object]) -> pd.DataFrame:
         cure = "Was the file cut off while it was written, or is a quotation mark never closed?"
         raise InputError(path, "", str(error), "this must be a comma-separated table", cure) from error
     if table.empty:
-        raise InputError(path, "row 2", "nothing", "at least one measured row is needed")
+        raise InputError(path, "line 2", "nothing", "at least one measured row is needed")
     _check_words(path, table)
     return table
 
@@ -124,7 +124,7 @@ def _check_words(path: Path, table: pd.DataFrame) -> None:
         words = table[name].fillna("").tolist()
         if CONTROL.search(" ".join(words)):
             row, word = next((row, word) for row, word in enumerate(words) if CONTROL.search(word))
-            raise InputError(path, f"row {row + 2}, column {name}", word, "a name has no control characters")
+            raise InputError(path, f"line {row + 2}, column {name}", word, "a name has no control characters")
 
 
 def _shape(path: Path) -> tuple[list[str] | None, list[int], list[Piece]]:
@@ -201,7 +201,7 @@ def _check_lengths(path: Path, header: list[str], counts: list[int]) -> None:
         if count != len(header):
             raise InputError(
                 path,
-                f"row {row}",
+                f"line {row}",
                 f"{count} values" if count else "nothing",
                 f"every row has the {len(header)} values that line 1 names",
                 _why_ragged(count, len(header)),

@@ -33,7 +33,7 @@ class Key(NamedTuple):
 
     colour: str
     words: str
-    look: Literal["", "wide", "dashed"] = ""
+    look: Literal["", "wide", "dashed", "dots"] = ""
 
 
 def share_level(part: float) -> int:
@@ -69,7 +69,9 @@ def darker(colour: str) -> str:
 
 
 def page_variables() -> str:
-    """The scale's steps as CSS variables: on a dark page the largest share is the lightest."""
-    light = "; ".join(f"--s{n}: {colour}" for n, colour in enumerate(SHARES))
-    dark = "; ".join(f"--s{n}: {colour}" for n, colour in enumerate(reversed(SHARES)))
-    return f":root {{ {light}; }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark}; }} }}"
+    """The scale's steps as CSS variables: one order on light and dark pages, which show what has it on a light ground.
+
+    Captions say which end is large, and the error field beside has the same scale; turned round on a dark page it
+    would say the opposite of both.
+    """
+    return f":root {{ {'; '.join(f'--s{n}: {colour}' for n, colour in enumerate(SHARES))}; }}"

@@ -53,7 +53,13 @@ _TEMPLATES.filters["rounded"] = rounded
 def render_page(template: str, **content: Any) -> str:
     """The HTML of ``templates/<template>`` filled with ``content``."""
     html = _TEMPLATES.get_template(template).render(embed=embed, beside=beside, table=html_table, **content)
-    return spelt_out(html)
+    return spelt_out(_as_code(html))
+
+
+def _as_code(html: str) -> str:
+    """Names in backticks, as a terminal shows them, as a page does; scripts, styles and tags stay what they are."""
+    tags = r"(<(script|style)\b.*?</\2>|<[^>]*>)|`([^`<>]+)`"
+    return re.sub(tags, lambda found: found[1] or f"<code>{found[3]}</code>", html, flags=re.DOTALL)
 
 
 def write_page(path: Path | str, template: str, **content: Any) -> None:

@@ -26,6 +26,8 @@ COLUMNS = {
     "": r"(joint|link|row|j|i|no|nr|#|kinematics|axis|)",
 }
 """What the columns are called; the last are no numbers of a row."""
+DIGITS_APART = re.compile(r"\d,\d")
+"""A comma that may be a decimal one."""
 USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
 """The order where no header says one."""
 
@@ -81,6 +83,8 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
 def _cells(line: str, number: int) -> list[str]:
     separator = next((separator for separator in "|\t;,&" if separator in line), None)
     cells = _at_blanks(line) if separator is None else [cell.strip() for cell in line.split(separator)]
+    if separator == "," and not all(map(_is_value, cells)) and all(map(_is_value, apart := _at_blanks(line))):
+        cells = apart  # decimal commas: 0,5 90 0,3 q1
     if len(cells) > PASTED.cells:
         raise InputError(TABLE, f"line {number}", f"{len(cells)} cells", "the four values of a D-H row")
     for cell in cells:
@@ -155,6 +159,7 @@ def _row(line: str, number: int, names: tuple[str, ...]) -> DHLine:
         cells = cells[1:]
     if not (len(cells) == len(names) or (names is USUAL and len(cells) == 3)):
         cure = "A row is a, alpha, d and, where it is not zero, theta (q2-90 without blanks)."
+        cure = f"{cure} {_of_commas(line)}".strip()
         raise InputError(TABLE, f"line {number}", line, f"{len(names)} numbers in a row", cure)
     read: dict[str, DHCell] = {}
     theta = ""
@@ -163,12 +168,20 @@ def _row(line: str, number: int, names: tuple[str, ...]) -> DHLine:
             continue
         value = read_dh_cell(cell)
         if value is None or not _fits(value, name):
-            raise InputError(TABLE, f"line {number}, column {name.partition('_')[0]}", cell, *_what_fits(name))
+            rule, cure = _what_fits(name)
+            place = f"line {number}, column {name.partition('_')[0]}"
+            raise InputError(TABLE, place, cell, rule, f"{cure} {_of_commas(line)}".strip())
         if name == "theta_offset_deg":
             theta = f"{theta} {cell}".strip()
             value = _both(read[name], value, number, theta) if name in read else value
         read[name] = value
     return DHLine(number, read, theta)
+
+
+def _of_commas(line: str) -> str:
+    """What to do where commas that part cells may be decimal ones; "" where they can't."""
+    cure = "With decimal commas, part the cells by ; or tabs, or write decimal points."
+    return cure if DIGITS_APART.search(line) else ""
 
 
 def _both(one: DHCell, other: DHCell, number: int, text: str) -> DHCell:

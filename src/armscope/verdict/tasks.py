@@ -74,6 +74,11 @@ class Task:
     needs: str = ""
     beside_scatter: bool = False
 
+    def headed(self, between: str) -> str:
+        """Where and what is changed there, apart by ``between``; once where one says the other ("payload data")."""
+        said = self.change.lower().startswith(self.place.lower())
+        return capitalised(self.change if said else between.join(filter(None, (self.place, self.change))))
+
     @property
     def finds_out(self) -> bool:
         """Whether it finds out what a cause is, and lowers no error by itself."""
@@ -169,15 +174,18 @@ def _definition(cause: Repair, effect: FoundEffect) -> Effect | None:
 
 
 def _origin(arm: Arm, effect: FoundEffect) -> tuple[str, str]:
-    """Which origin of a URDF is put right for a link's geometry, and what it becomes, as the file writes it."""
+    """Which origin of a URDF is put right for a link's geometry, and what it becomes, as the file writes it.
+
+    The file writes an origin along its parent's axes, and its error is told along the joint's, which may be turned.
+    """
     joint = Location.of(effect.location).number
     xyz, rpy = place_and_angles(corrected_origin(arm, effect, joint))
     numbers = (" ".join(f"{value:.6f}" for value in np.round(each, 6) + 0.0) for each in (xyz, rpy))
-    return f"{effect.location}, joint {arm.joint_names[joint - 1]}'s origin,", '<origin xyz="{}" rpy="{}"/>'.format(
-        *numbers
-    )
+    where = f"{effect.location}, joint {arm.joint_names[joint - 1]}'s origin,"
+    return where, '<origin xyz="{}" rpy="{}"/>'.format(*numbers) + AXES_OF_ORIGIN
 
 
+AXES_OF_ORIGIN = " (along its parent link's axes; what is told along x, y and z is along the joint's own)"
 FORMULA = re.compile(r"(?:commanded|length|mass|turn) = (.*)", re.DOTALL)
 """What a rule's numbers are named in; a row's and a zero's stand in their instructions."""
 BEYOND_THE_RULE = (

@@ -37,7 +37,7 @@ def test_a_lost_reading_is_told_by_row_and_laid_between_its_neighbours(column: s
     rows = slice(AT, AT + samples)
     found, (notice,) = without_spikes(with_reading(column, 1, value, rows))
     assert notice.kind == SPIKES
-    assert f"{name} in row {AT + 2} ({value:.4g})" in notice.text
+    assert f"{name} in line {AT + 2} ({value:.4g})" in notice.text
     between, own = getattr(found, column), getattr(SOUND, column)
     assert np.allclose(between[rows], own[rows], atol=0.2 * np.ptp(own[:, 1]))
     kept = np.ones(len(own), dtype=bool)
@@ -68,4 +68,4 @@ def test_one_lost_reading_changes_no_verdict(column: str, value: float) -> None:
     assert [each.effect for each in verdict.effects] == [each.effect for each in sound.effects]
     assert verdict.held_out.model < 1.1 * sound.held_out.model
     assert [each.kind for each in verdict.notices].count(SPIKES) == 1
-    assert any(f"in row {AT + 2}" in each.text() for each in check_moving(table, robot()).suspicions)
+    assert any(f"in line {AT + 2}" in each.text() for each in check_moving(table, robot()).suspicions)

@@ -58,7 +58,7 @@ def test_joint_first_row_and_number_of_jumps_are_told(whole: pd.DataFrame) -> No
     same_run = wrapped.run[1:] == wrapped.run[:-1]
     jumps = np.flatnonzero((np.abs(np.diff(wrapped.q[:, JOINT])) > 6) & same_run)
     text = counted_on(wrapped)[1][0].text
-    assert f"q3 jumps by a whole turn {len(jumps)} times, first in row {jumps[0] + 3}" in text
+    assert f"q3 jumps by a whole turn {len(jumps)} times, first in line {jumps[0] + 3}" in text
 
 
 @pytest.mark.long
@@ -104,7 +104,7 @@ def test_an_angle_that_was_filtered_across_its_jumps_is_a_problem_and_no_wrong_s
     first = int(np.flatnonzero(np.abs(np.diff(filtered.q[:, JOINT])) > 1)[0])
     problems = [each.statement for each in told if each.weight == "problem"]
     assert len(problems) == 1
-    assert re.match(rf"q3 leaps by -?1[78]\d deg from row {first + 2} to row {first + 3}: ", problems[0])
+    assert re.match(rf"q3 leaps by -?1[78]\d deg from line {first + 2} to line {first + 3}: ", problems[0])
 
 
 def test_a_step_across_a_gap_in_time_is_no_jump() -> None:

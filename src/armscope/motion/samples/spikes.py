@@ -42,7 +42,7 @@ def without_spikes(motions: Motions) -> tuple[Motions, list[Notice]]:
                 alone &= ~_turns_back(motions, q[:, joint])
             if alone.any():
                 rows = np.flatnonzero(alone)
-                first = f"{name} in row {rows[0] + 2} ({column[rows[0]]:.4g})"
+                first = f"{name} in line {rows[0] + 2} ({column[rows[0]]:.4g})"
                 told.append(first if len(rows) == 1 else f"{first} and {len(rows) - 1} more")
                 for run in motions.runs:
                     there = motions.run == run

@@ -109,7 +109,7 @@ def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, A
     if not len(steps):
         rule = "a run is a motion of many samples"
         cure = "Does the column run number the rows? Name one motion in all its rows, or leave the column out."
-        raise InputError(motions.source, f"row {int(rows[0]) + 2}, column run", label, rule, cure)
+        raise InputError(motions.source, f"line {int(rows[0]) + 2}, column run", label, rule, cure)
     back = np.flatnonzero(steps < 0)
     if len(back):
         row = int(rows[back[0] + 1])
@@ -117,8 +117,8 @@ def _mended_run(motions: Motions, rows: np.ndarray) -> tuple[tuple[np.ndarray, A
         cure = "Sort the rows by time, or give every motion its own name in the column run."
         before = rows[motions.time[rows] == time[back[0] + 1]][0]
         if before < row and np.array_equal(motions.q[before], motions.q[row]):
-            cure = f"It is row {int(before) + 2} once more: are rows given twice? Delete those from row {row + 2} on."
-        raise InputError(motions.source, f"row {row + 2}, column time_s", float(time[back[0] + 1]), rule, cure)
+            cure = f"It is line {int(before) + 2} once more: are rows given twice? Delete those from line {row + 2} on."
+        raise InputError(motions.source, f"line {row + 2}, column time_s", float(time[back[0] + 1]), rule, cure)
     usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
     if usual <= 0 or 1 / usual < TIMING.slowest_hz:
         rule = f"a motion is sampled at least {TIMING.slowest_hz:g} times a second"

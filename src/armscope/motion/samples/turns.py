@@ -31,7 +31,7 @@ def counted_on(motions: Motions) -> tuple[Motions, list[Notice]]:
             rows = np.sort(np.concatenate(list(jumps.values())))
             q[:, j] = _laid(motions, motions.q[:, j])
             times = "once, in" if len(rows) == 1 else f"{len(rows)} times, first in"
-            told.append(f"q{j + 1} jumps by a whole turn {times} row {rows[0] + 2}")
+            told.append(f"q{j + 1} jumps by a whole turn {times} line {rows[0] + 2}")
     if not told:
         return motions, []
     text = (

@@ -24,6 +24,7 @@ from armscope.recordings.importing.draft_motors import (
 )
 from armscope.recordings.importing.draft_orientations import orientation_lines
 from armscope.recordings.importing.draft_points import points_of
+from armscope.recordings.importing.draft_times import time_stamps
 from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
 from armscope.recordings.importing.first_table import (
     ForeignTable,
@@ -178,6 +179,8 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
             continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(quoted(table.names[match]))}   # guessed by name"
+        elif what == "time" and (stamps := time_stamps(table, taken)):
+            yield stamps
 
 
 def _of_motors(table: ForeignTable, group: str, columns: list[int]) -> str:

@@ -31,7 +31,7 @@ class AtlasCell:
 
     @property
     def dark(self) -> bool:
-        """Whether its colour is of the darker half, on a light page."""
+        """Whether its colour is of the darker half."""
         return self.level is not None and self.level > 0.45 * len(SHARES)
 
 

@@ -30,7 +30,7 @@ BEYOND = 1.6
 DASH = "5 4"
 TRACE = (Key(MEASURED, "measured", "wide"), Key(BEFORE, "as stated", "dashed"), Key(AFTER, "corrected"))
 LEFT = (Key(BEFORE, "friction only"), Key(AFTER, "with causes"))
-FRICTION = (Key(QUIET, "rows"), Key(AFTER, "model"))
+FRICTION = (Key(QUIET, "rows", "dots"), Key(AFTER, "model"))
 """What the colours of each kind of picture stand for."""
 
 

@@ -14,7 +14,7 @@ import pandas as pd
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.bad_shots import told_of_shots
 from armscope.comparison.constants import COMPARING, SHARED
-from armscope.comparison.noisier import Noisier, told_of
+from armscope.comparison.noisier import Noisier
 from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of
 from armscope.comparison.valued import wave_part
@@ -86,7 +86,6 @@ def write_changes(found: Comparison, folder: Path) -> Path:
     if numbers:
         save_figure(history_figure(found), folder / FIGURE, formats=("png", "svg"))
     tag, answer = _answer(found)
-    beside = " ".join(filter(None, (told_of(found.noisier), found.other_load, found.not_comparable)))
     first = f"{found.told}." if found.changes else found.headline.replace("p = ", "p\u00a0=\u00a0")
     write_page(
         folder / PAGE,
@@ -95,7 +94,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         found=found,
         headline=first,
         recorded=first_to_last(found.names),
-        rest=beside if found.changes else found.would_be_seen,
+        rest=found.told_beside if found.changes else found.would_be_seen,
         tag=tag,
         answer=answer,
         tiles=_tiles(found),
@@ -104,6 +103,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         left_out=numbers - len(drawn_numbers(found)),
         history=history,
         recordings=recordings_table(found),
+        points=measured_points_table(found),
         shots=capitalised(f"{shots}.") if (shots := told_of_shots(found.bad_shots, MOST_SHOTS)) else "",
         seen=seen_table(found),
         power=COMPARING.power,
@@ -123,6 +123,8 @@ def _answer(found: Comparison) -> tuple[str, str]:
         return "depends", "no cause found"
     if found.noisier:
         return "depends", "more is left"
+    if found.told_of_points:
+        return "depends", "the measured point moved"
     return "holds", "no difference seen" if found.of_arms else "no change seen"
 
 
@@ -167,6 +169,17 @@ def recordings_table(found: Comparison) -> pd.DataFrame:
             if found.changes:
                 row[f"and the {'differences' if found.of_arms else 'changes'} (mm)"] = left.changes_mm
         rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def measured_points_table(found: Comparison) -> pd.DataFrame:
+    """Where the measured point of each recording sits in the last frame, as `tool_mm` states it, mm."""
+    rows = []
+    for each in found.points:
+        named = {"target": each.target} if any(other.target for other in found.points) else {}
+        place = {f"{axis} (mm)": value for axis, value in zip("xyz", each.point_mm, strict=True)}
+        moved = f"{millimetres(each.moved_mm)} than in {each.than}" if each.than else ""
+        rows.append({"recording": each.recording, **named, **place, "elsewhere by": moved})
     return pd.DataFrame(rows)
 
 

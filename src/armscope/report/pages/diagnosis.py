@@ -42,7 +42,7 @@ from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
 from armscope.verdict.promise import promised
 from armscope.verdict.remainder import asked_of_noise
-from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, Notice
+from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, TOOL_EXCHANGED, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
 from armscope.verdict.wording import capitalised, main_and_minor, millimetres, percent, places_in_words
 from armscope.verdict.work_order import WorkOrder
@@ -54,8 +54,8 @@ ANSWERS = {
     "cannot tell": ("depends", "cannot tell"),
 }
 WARNINGS = (
-    "check", "gravity", "approach", "stated noise", "fewer rows than parameters", "too few rows", "implausible",
-    "load in question", ROWS_LEFT_OUT, NO_BAD_SHOTS,
+    "check", "gravity", "approach", "orientations", "stated noise", "fewer rows than parameters", "too few rows",
+    "implausible", "load in question", TOOL_EXCHANGED, ROWS_LEFT_OUT, NO_BAD_SHOTS,
 )  # fmt: skip
 """Kinds of notices that stand above everything; what the headline says already does not, others lie folded."""
 WORSE = f"Rows that took no part in the fit are predicted worse with this model than without it. {NOT_YET}"
@@ -67,16 +67,21 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
     """Write ``report.html``, ``work-order.html``, its tables as CSV, and ``figures/*.svg``."""
     folder, subject = Path(folder), Subject(verdict)
     written = write_sections(SECTIONS, subject, "diagnosis", folder)
-    write_work_order(subject, folder)
-    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written)
+    tables = write_work_order(subject, folder)
+    page = render_page("diagnosis.html.j2", **_head(verdict), sections=written, tables=tables)
     write_text(folder / REPORT, page)
     return folder / REPORT
 
 
-def write_work_order(subject: Subject, folder: Path) -> None:
-    """The work order as a page, and its numbers as tables; none of a model that makes the error larger."""
+def write_work_order(subject: Subject, folder: Path) -> tuple[str, ...]:
+    """The work order as a page, and its numbers as tables; none of a model that makes the error larger.
+
+    Returns:
+        The tables that were written.
+    """
     verdict, another = subject.verdict, another_model(subject.verdict)
     tasks = () if another or makes_worse(verdict) else subject.order.tasks
+    numbers = {} if makes_worse(verdict) else _write_numbers(subject, folder)
     content = {
         **_about(verdict),
         "order": subject.order,
@@ -93,9 +98,10 @@ def write_work_order(subject: Subject, folder: Path) -> None:
         "wrongly_stated": wrongly_stated(verdict),
         "next_poses": verdict.next_poses.checked if verdict.next_poses and verdict.next_poses.settle else "",
         "left_out": places_in_words([effect.location for effect in unsettled(verdict)]),
-        **({} if makes_worse(verdict) else _write_numbers(subject, folder)),
+        **numbers,
     }
     write_text(folder / ORDER, render_page("work_order.html.j2", **content))
+    return tuple(numbers.get("written", ()))
 
 
 def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
@@ -123,6 +129,7 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
         "rows_change": rows is not None and changes(rows),
         "convention": "" if dh is None else dh.convention,
         "zeros": _zeros_in_words(zeros),
+        "written": (ZEROS, *corrected, *([UR_KINEMATICS] if kinematics else [])),
         "kinematics": f"{UR_KINEMATICS}: {ZEROS_IN_IT}" if kinematics else "",
         "tables": [
             *(name for name, table in {ZEROS: zeros, **corrected}.items() if changes(table)),
