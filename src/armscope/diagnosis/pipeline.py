@@ -98,8 +98,9 @@ def diagnose(
     """
     settings, progress = settings or Settings(), progress or unheard
     started = time.perf_counter()
-    checked = check_table(arm, recordings)
-    table = checked.recordings if settings.orientation else replace(checked.recordings, orientation=None)
+    # what nobody uses is not judged either
+    checked = check_table(arm, recordings if settings.orientation else replace(recordings, orientation=None))
+    table = checked.recordings
     progress("fitting base and tool", 0.02)
     start, tool_per_run, set_ups, told = _frames(arm, _telling(table), settings.tool_per_run)
     rows = LinearisedTable(table, supported(table, channels))
