@@ -95,9 +95,11 @@ def test_two_joints_that_hide_each_other_are_found_as_a_pair() -> None:
 
 def test_a_wrist_that_carries_next_to_nothing_may_be_counted_either_way(good: Motions) -> None:
     for joint in (4, 5):
-        assert not [each for each in said(counted(good, [joint], [joint])) if "counted" in each]
+        for each in said(counted(good, [joint], [joint])):  # on some paths a wrist tells even so, and tells no other
+            assert each.startswith(f"hint with joint {joint} counted the other way round "), each
         told = first(counted(good, [joint]), wristed())
-        assert told.statement.startswith(f"tau{joint}_nm has the sign opposite")
+        either = f"tau{joint}_nm has the sign opposite", f"with the position of joint {joint} alone counted the other "
+        assert told.statement.startswith(either)
         assert f"Or q{joint}, with its speeds, is counted the other way round" in told.cure
 
 

@@ -7,7 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import Samples, beyond_friction, ordinary_columns
+from armscope.check.motion_readings import (
+    Samples,
+    beyond_friction,
+    left_in_all,
+    ordinary_columns,
+    read_otherwise,
+)
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
@@ -47,7 +53,7 @@ def with_a_load(samples: Samples, arm: MovingArm) -> tuple[MovingArm, float] | N
         arm: as stated.
 
     Returns:
-        None where no torque is far from the masses', or no load explains it.
+        None where no torque is far from the masses', or no load explains it, or another unit or order explains more.
     """
     few = samples.rows(spread_evenly(len(samples.q), MOTION.rows))
     rigid = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
@@ -65,7 +71,12 @@ def with_a_load(samples: Samples, arm: MovingArm) -> tuple[MovingArm, float] | N
     loaded = replace(arm, inertial=inertial)
     then = factors_of(few, arm.torques(few.q, few.dq, few.ddq, inertial))
     suits = now.keys() <= then.keys() and not any(is_of_another_size(factor) for factor in then.values())
-    return (loaded, mass) if suits else None
+    return (loaded, mass) if suits and not _read_better(samples, arm, loaded) else None
+
+
+def _read_better(samples: Samples, arm: MovingArm, loaded: MovingArm) -> bool:
+    """Whether another reading of the table, by the arm as stated, leaves less than the load does."""
+    return any(left_in_all(each.samples, arm) < left_in_all(samples, loaded) for each in read_otherwise(samples, arm))
 
 
 def _fitted(few: Samples, arm: MovingArm, rigid: Array) -> Array:
@@ -84,7 +95,7 @@ def _fitted(few: Samples, arm: MovingArm, rigid: Array) -> Array:
 
 def unstated_load(mass: float) -> Suspicion:
     """That torques ask for such a load, kg, in words."""
-    statement = f"torques are those of the stated masses and a load of {mass:.2g} kg that is not stated"
+    statement = f"torques are those of the stated masses and a load of about {mass:.2g} kg that is not stated"
     cure = (
         "Weigh it and state it as tool_load in robot.yaml, or let a diagnosis find it. If the arm carried nothing, is "
         "a torque in another unit?"

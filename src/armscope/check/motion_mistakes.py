@@ -14,7 +14,7 @@ import numpy as np
 from armscope.check.motion_channels import OF_MASSES, SIGN, Channels, odd_channels
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_directions import left_of_either_sign, other_way_round, told_by_masses
-from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_along, read_otherwise, tried_readings
+from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_in_all, read_otherwise, tried_readings
 from armscope.check.motion_signs import signs_and_sizes
 from armscope.check.motion_zeros import moved_zeros, zeros_elsewhere
 from armscope.check.suspicion import Suspicion
@@ -45,7 +45,13 @@ class _Table:
     @property
     def left(self) -> float:
         """Logarithm of the share that each joint's motion leaves of its torque, summed."""
-        return float(np.log(left_along(self.samples, self.arm)[0]).sum())
+        return left_in_all(self.samples, self.arm)
+
+    def has_better_zero(self, reading: OtherReading) -> bool:
+        """Whether a zero elsewhere leaves less than a reading does."""
+        few = self.samples.rows(spread_evenly(len(self.samples.q), MOTION.reading_rows))
+        left = left_in_all(reading.samples, self.arm)
+        return any(left_in_all(moved, self.arm) < left for _, _, moved in moved_zeros(few, self.arm))
 
     def counted(self, *others: OtherReading | None) -> OtherReading | None:
         """With joints counted the other way round, if that explains more than other readings and zeros elsewhere."""
@@ -96,7 +102,7 @@ def mistakes(samples: Samples, arm: MovingArm, of: Channels) -> list[Suspicion]:
     if (counted := table.counted(reading, table.turned(odd).reading)) is not None:
         return _in_turn(list(counted.told), table.read(counted).odd, "counted so")
     odd = [table.of_either(each) for each in odd]
-    if reading is None:
+    if reading is None or table.has_better_zero(reading):
         zeros = list(zeros_elsewhere(table.samples, arm))
         sure = any(each.weight == "problem" for each in zeros)
         return [*zeros, *(each for each in odd if not (sure and OF_MASSES in each.statement))]

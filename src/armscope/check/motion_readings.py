@@ -224,6 +224,11 @@ def left_along(samples: Samples, arm: MovingArm) -> Array:
     return np.maximum(left, MOTION.least_left)
 
 
+def left_in_all(samples: Samples, arm: MovingArm) -> float:
+    """Logarithm of the share that each joint's motion leaves of its torque, summed."""
+    return float(np.log(left_along(samples, arm)[0]).sum())
+
+
 def _left_by_motion(samples: Samples, arm: MovingArm) -> Array:
     """(m, m) share of each torque's power that offset, friction, rotor and masses of each joint leave."""
     rigid = arm.torques(samples.q, samples.dq, samples.ddq, arm.inertial)
