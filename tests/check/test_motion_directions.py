@@ -100,7 +100,8 @@ def test_a_wrist_that_carries_next_to_nothing_may_be_counted_either_way(good: Mo
         told = first(counted(good, [joint]), wristed())
         either = f"tau{joint}_nm has the sign opposite", f"with the position of joint {joint} alone counted the other "
         assert told.statement.startswith(either)
-        assert f"Or q{joint}, with its speeds, is counted the other way round" in told.cure
+        if told.statement.startswith(either[0]):
+            assert f"Or q{joint}, with its speeds, is counted the other way round" in told.cure
 
 
 def test_a_turned_torque_is_no_position_where_masses_say_so(good: Motions) -> None:
