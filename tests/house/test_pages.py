@@ -21,6 +21,12 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / link).resolve().is_relative_to(ROOT / "docs"), f"{link} is not part of the site"
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_tests_that_are_named_are_there(page: Path) -> None:
+    for named in re.findall(r"\btests/[\w/]+\.py\b", page.read_text(encoding="utf-8")):
+        assert (ROOT / named).is_file(), named
+
+
 def test_the_citation_is_of_this_version() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
