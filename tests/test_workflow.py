@@ -79,12 +79,14 @@ def test_a_deleted_figure_is_redrawn_without_refitting(finished):
         ("paper={swarm: {partcles: 5}}", "Did you mean 'particles'?"),
         pytest.param("paper={swarm: {particles: many}}", "paper.swarm.particles", marks=pytest.mark.long),
         pytest.param("seed=-3", "seed", marks=pytest.mark.long),
+        ("fleet=nope.csv", "nope.csv: found no readable file"),
     ],
 )
 def test_a_wrong_override_is_one_clear_error(finished, override, expected):
     printed = snakemake(finished, "-n", "--config", override, succeeds=False)
     assert expected in printed
     assert "Traceback" not in printed
+    assert "InputFunctionException" not in printed
 
 
 def after(rules, follows):

@@ -5,9 +5,10 @@ import pandas as pd
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.fleet.members import read_fleet
+from armscope.fleet.members import Member, read_fleet
 from armscope.fleet.simulation import WEAKNESSES, arm_spec
-from armscope.fleet.summary import outliers, priors, repeated
+from armscope.fleet.summary import outliers, priors, repeated, verdicts
+from armscope.report.pages.fleet import write_fleet_page
 
 HEADER = "arm,type,robot,recordings\n"
 
@@ -54,6 +55,18 @@ def test_what_repeats_is_counted_by_arm_not_by_diagnosis():
     assert often[["cause", "arms", "of"]].to_dict("records") == [{"cause": "x", "arms": 2, "of": 3}]
     learned = pd.DataFrame(columns=["type", "cause", "parameter", "unit", "rms", "arms"])
     assert priors(often, learned)["types"]["one"]["causes"]["x"] == {"share": 0.6, "rms_at_tool_mm": 2.0}
+
+
+def test_a_diagnosis_that_was_not_made_has_a_row_that_says_why(tmp_path):
+    members = [Member("gone", "one", tmp_path / "no.yaml", tmp_path / "no.csv", "2026-01")]
+    found, failed = verdicts(members, [tmp_path])
+    write_fleet_page(members, [tmp_path], tmp_path / "page")
+    rows = pd.read_csv(tmp_path / "page" / "arms.csv")
+    assert (found, failed) == ({}, {"gone_2026-01": "not diagnosed"})
+    assert rows[["arm", "date", "answer", "headline"]].values.tolist() == [
+        ["gone", "2026-01", "no verdict", "not diagnosed"]
+    ]
+    assert rows[["before_mm", "after_mm", "before_apart"]].isna().all(axis=None)
 
 
 def test_simulated_arms_have_the_weakness_of_their_type_as_a_rule():

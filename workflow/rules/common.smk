@@ -184,6 +184,10 @@ def members():
         raise WorkflowError(str(error)) from None
 
 
+if "fleet" in config:  # a table that somebody named: what is wrong with it is said at once, as of a sweep's, not from a rule
+    members()
+
+
 def fleet_parts():
     """In how many jobs they are diagnosed."""
     return -(-len(members()) // ARMS_PER_JOB)

@@ -17,6 +17,9 @@ from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
 
+NO_VERDICT = "no verdict"
+"""What stands as the answer of a diagnosis that was not made."""
+
 
 def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:
     """Verdicts by member's name, and why others have none."""
@@ -45,6 +48,18 @@ def causes_of_arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> p
     ]  # fmt: skip
     columns = ["arm", "type", "date", "run", "cause", "title", "rms_at_tool_mm", "share", "minor"]
     return pd.DataFrame(rows, columns=columns)
+
+
+def without_verdict(members: Sequence[Member], failed: Mapping[str, str]) -> pd.DataFrame:
+    """One row per diagnosis that was not made, with the columns of `arms`: why stands in the headline's place."""
+    rows = [
+        {
+            "arm": member.arm, "type": member.type, "date": member.date, "run": member.run,
+            "answer": NO_VERDICT, "headline": " ".join(failed[member.name].split()),
+        }
+        for member in members if member.name in failed
+    ]  # fmt: skip
+    return pd.DataFrame(rows, columns=["arm", "type", "date", "run", "answer", "headline"])
 
 
 def arms(members: Sequence[Member], found: Mapping[str, Verdict]) -> pd.DataFrame:

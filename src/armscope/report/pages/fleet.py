@@ -9,7 +9,16 @@ import pandas as pd
 from armscope.core.files import write_table, write_yaml
 from armscope.fleet.constants import FLEET
 from armscope.fleet.members import Member
-from armscope.fleet.summary import arms, causes_of_arms, learned_sizes, outliers, priors, repeated, verdicts
+from armscope.fleet.summary import (
+    arms,
+    causes_of_arms,
+    learned_sizes,
+    outliers,
+    priors,
+    repeated,
+    verdicts,
+    without_verdict,
+)
 from armscope.report.figures.fleet import fleet_figure
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
@@ -44,7 +53,8 @@ def write_fleet_page(members: list[Member], folders: list[Path], output: Path) -
     found, failed = verdicts(members, folders)
     of_arms, of_causes = arms(members, found), causes_of_arms(members, found)
     often = repeated(of_causes, of_arms)
-    for name, table in (("arms", of_arms), ("causes", of_causes), ("repeated", often)):
+    every_row = pd.concat([of_arms, without_verdict(members, failed)], ignore_index=True) if failed else of_arms
+    for name, table in (("arms", every_row), ("causes", of_causes), ("repeated", often)):
         write_table(output / f"{name}.csv", table)
     write_yaml(output / "priors.yaml", priors(often, learned_sizes(members, found)))
     drawn = bool(len(of_causes)) and not of_causes["minor"].all()
