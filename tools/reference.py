@@ -33,6 +33,9 @@ TWINS: dict[str, type[Any]] = {
 }
 """What parts of verdict.json are in memory, where their attributes are explained."""
 
+NOTHING = re.compile(r"\b(?:None|NaN)\b")
+"""What stands in memory where a file has null."""
+
 PAGES = Path(__file__).parents[1] / "docs" / "reference"
 MADE = "Made from the code by `python -m tools.reference`."
 
@@ -177,10 +180,17 @@ def _table(schema: dict[str, Any], told: dict[str, str]) -> Iterator[str]:
     yield "| key | value | default | meaning |"
     yield "|---|---|---|---|"
     for key, part in schema["properties"].items():
-        default = "always there" if key in required and "default" not in part else _default(part)
+        always = key in required and "default" not in part
+        default = "always there" if always else _default(part)
         meaning = " ".join(str(part.get("description") or told.get(key, "")).split())
-        meaning = meaning.replace("|", "\\|").replace("``", "`")
-        yield f"| `{key}` | {_kind(part)} | {default} | {meaning} |"
+        meaning = NOTHING.sub("`null`", meaning.replace("|", "\\|").replace("``", "`"))
+        yield f"| `{key}` | {_kind(part if always else _without_null(part))} | {default} | {meaning} |"
+
+
+def _without_null(part: dict[str, Any]) -> dict[str, Any]:
+    """A key that may be left out is left out, not null."""
+    kinds = [each for each in part.get("anyOf", ()) if each.get("type") != "null"]
+    return {**part, "anyOf": kinds} if kinds else part
 
 
 def _default(part: dict[str, Any]) -> str:
@@ -194,7 +204,7 @@ def _kind(part: dict[str, Any]) -> str:
         name = part["$ref"].rpartition("/")[2]
         return f"[{name}](#{name.lower()})" if name != "RobotDescription" else "[robot.yaml](robot-yaml.md)"
     if "anyOf" in part:
-        return " or ".join(_kind(each) for each in part["anyOf"] if each.get("type") != "null")
+        return " or ".join(_kind(each) for each in part["anyOf"])
     if "enum" in part or "const" in part:
         return ", ".join(f"`{each}`" for each in part.get("enum", [part.get("const")]))
     if part.get("type") == "array":
@@ -202,7 +212,13 @@ def _kind(part: dict[str, Any]) -> str:
     if part.get("type") == "object":
         inner = part.get("additionalProperties")
         return f"by name: {_kind(inner)}" if isinstance(inner, dict) else "by name"
-    words = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}
+    words = {
+        "number": "number",
+        "integer": "whole number",
+        "string": "text",
+        "boolean": "true or false",
+        "null": "null",
+    }
     return words.get(str(part.get("type")), "anything") + _range(part)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import armscope
 from armscope.core.inputs import InputError
-from armscope.notebook.given import arm_for, arm_of, table_of
+from armscope.notebook.given import arm_for, arm_of, names_of, table_of
 from armscope.report.svg import Drawing
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "one-effect"
@@ -29,6 +29,18 @@ def test_an_arm_that_nobody_gave_is_asked_for(tmp_path):
             command(tmp_path)
         with pytest.raises(InputError, match="the nominal arm must be known"):
             command(pd.DataFrame({"q1_rad": np.zeros(3)}))
+
+
+def test_one_recording_given_twice_is_told_as_that():
+    with pytest.raises(InputError, match=r"one-effect more than once'; .*Was one file copied, or named twice\?"):
+        armscope.compare(EXAMPLE, EXAMPLE)
+    with pytest.raises(InputError, match="as many different names as recordings"):
+        armscope.compare(EXAMPLE, EXAMPLE, names=["a", "a"])
+    assert names_of([EXAMPLE, pd.DataFrame()], ()) == [str(EXAMPLE), "2"]
+
+
+def test_only_what_is_public_is_listed():
+    assert sorted(name for name in dir(armscope) if not name.startswith("__")) == sorted(armscope.__all__)
 
 
 @pytest.mark.parametrize(

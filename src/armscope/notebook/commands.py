@@ -37,6 +37,7 @@ from armscope.notebook.given import (
     arm_for,
     arm_of,
     described_file,
+    names_of,
     options_of,
     refuse_less_than_two,
     refuse_unknown,
@@ -251,10 +252,7 @@ def compare(
     """
     refuse_less_than_two(recordings)
     arm = read_robot(arm_for(robot, recordings[0]))
-    numbered = enumerate(recordings, 1)
-    named = list(names) or [str(each) if isinstance(each, str | Path) else f"{n}" for n, each in numbered]
-    if len(set(named)) != len(recordings):
-        raise InputError("names", "", named, "as many different names as recordings")
+    named = names_of(recordings, names)
     tables = [read_recordings(each, arm) for each in recordings]
     with threadpool_limits(1):
         return compare_recordings(arm, dict(zip(named, tables, strict=True)), of_arms)

@@ -60,6 +60,24 @@ def refuse_less_than_two(recordings: Sequence[object]) -> None:
         raise InputError("compare", "", "no recordings", rule)
 
 
+def names_of(recordings: Sequence[Table], names: Sequence[str]) -> list[str]:
+    """What recordings are called: as said, else by their paths, and by their numbers where they have none.
+
+    Raises:
+        InputError: two have one name, or one path.
+    """
+    if names:
+        if len(set(names)) != len(names) or len(names) != len(recordings):
+            raise InputError("names", "", list(names), "as many different names as recordings")
+        return list(names)
+    named = [str(each) if isinstance(each, str | Path) else f"{n}" for n, each in enumerate(recordings, 1)]
+    twice = next((name for k, name in enumerate(named) if name in named[:k]), None)
+    if twice is not None:
+        rule = "what is compared is measured anew each time"
+        raise InputError("compare", "", f"{twice} more than once", rule, "Was one file copied, or named twice?")
+    return named
+
+
 def described_file(robot: Robot) -> Path | str:
     """The file of a robot: inverse dynamics needs what an `Arm` does not hold.
 
