@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -80,6 +82,21 @@ def test_the_largest_effect_and_what_becomes_of_the_error_are_told(arm_, tmp_pat
     learned = "learned from points – from orientations, too, 0.220 ± 0.020 mm"
     assert f"1.20 mm become 0.250 mm (3D, run a, 5 splits; {learned})" in text
     assert "| **0.250 ± 0.010** | 0.220 ± 0.020 (2 splits) | 0.310 | 0.27 |" in text
+
+
+def test_effects_and_small_errors_stand_in_order_of_the_share_that_is_printed(arm_, tmp_path):
+    effects = [
+        verdicts.compliance(title=f"cause {share}", rms_at_tool_mm=size, share=share / 100, minor=False)
+        for share, size in ((30, 0.2), (12, 0.4), (9, 0.1), (4, 0.1))
+    ]
+    background = Background("all", True, np.nan, 0.1, 0.25)
+    said = verdicts.case(effects=effects, background=background, residual_before_mm=0.7).verdict
+    write_json(arm_.folder / "verdict.json", said.to_json())
+    text = page(arm_, tmp_path)
+    told = re.search(r"is, the largest share first: (.*?)\. On configurations", text)[1].split("; ")
+    assert [re.search(r"\d+(?= %)", each)[0] for each in told[:4]] == ["30", "25", "12", "9"]
+    assert told[4:] == ["besides, 1 smaller effect"]
+    assert text.count("share of the squared error\nthat base and tool leave") == 1
 
 
 def test_names_of_most_splits_and_jumps_within_some_rows_of_each_other_are_told(arm_, tmp_path):

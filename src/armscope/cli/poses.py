@@ -34,7 +34,9 @@ def poses(
         float | None,
         typer.Option(min=0, help="radius of the links; if left out, the URDF's shapes, or 4 % of the reach"),
     ] = None,
-    payload_kg: Annotated[float, typer.Option(min=0, help="payload that half of the poses may carry")] = 0.0,
+    payload_kg: Annotated[
+        float, typer.Option(min=0, help="payload of half of the candidates: most of the chosen may carry it")
+    ] = 0.0,
     candidates: Annotated[int, typer.Option(min=1, help="possible poses to choose from")] = 5000,
     starts: Annotated[int, typer.Option(min=1, help="how many starts the search makes")] = 3,
     noise_mm: Annotated[

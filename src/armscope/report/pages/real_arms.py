@@ -39,7 +39,12 @@ where the tool's orientation was recorded and is learned from, too: again the di
 the angle between predicted and measured orientation. No row of a test part is seen by the diagnosis that is tested on
 it. What that does not exclude: these recordings were in view while armscope was built, and one constant (a joint's
 bearing is expected to give half as much as its drive, not a third) was settled on the iiwa's 2016-11-18. The recordings
-are not part of this repository: `snakemake -j2 fetch_recordings`."""
+are not part of this repository: `snakemake -j2 fetch_recordings`.
+
+The sentence below each arm's name gives an effect's size at the tool (RMS per axis) and its share of the squared error
+that base and tool leave: what goes when it is cured as found, averaged over the orders in which all can be cured.
+Shares need not add up to 100 %: something may be left without a name, and what is not listed may have a share below
+zero, because it hides part of what others do."""
 PAPER = "The paper's models at 85 identification rows (chosen as in the paper, least squares; the rest tests them):"
 JUMPS = [effect.name for effect in EFFECTS if effect.jumps]
 
@@ -150,17 +155,19 @@ def _spread(row: Any, splits: int | None = None) -> str:
 
 
 def _what_is_wrong(verdict: Verdict) -> str:
-    """The largest effects of the verdict, in one sentence."""
+    """The largest effects of the verdict and its small errors, in one sentence, in order of their shares."""
     main = [effect for effect in verdict.effects if not effect.minor]
     if not main:
         return verdict.headline
-    told = [f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)" for e in main[:TOLD]]
-    if len(main) > TOLD:
-        told.append(f"{len(main) - TOLD} smaller effect{'s' if len(main) > TOLD + 1 else ''}")
+    sized = [(e.share, f"{e.title} ({e.rms_at_tool_mm:.2g} mm, {100 * e.share:.0f} %)") for e in main[:TOLD]]
     if verdict.background.present:
-        told.append(f"small errors allowed for everywhere in the arm ({100 * verdict.background.share:.0f} %)")
+        share = verdict.background.share
+        sized.append((share, f"small errors allowed for everywhere in the arm ({100 * share:.0f} %)"))
+    told = [words for _, words in sorted(sized, key=lambda one: one[0], reverse=True)]
+    if len(main) > TOLD:
+        told.append(f"besides, {len(main) - TOLD} smaller effect{'s' if len(main) > TOLD + 1 else ''}")
     before = f"{verdict.residual_before_mm:.2g} mm per axis, base and tool fitted"
-    return f"What the nominal arm misses ({before}) is, the largest first: {'; '.join(told)}."
+    return f"What the nominal arm misses ({before}) is, the largest share first: {'; '.join(told)}."
 
 
 def _how_well(table: pd.DataFrame, run: ReferenceRun) -> str:
