@@ -177,6 +177,9 @@ def test_of_several_arms_the_page_says_which_is_unlike_the_others(tmp_path):
     assert 'Joint offset at joint 3 is larger in "B" than in the others.' in said
     assert "unlike the others" in said
     assert "0.900 mrad 1.770 mrad +0.870 mrad" in said, "the mean of the others, and B"
+    assert "others (mean of these recordings)" in said
+    assert "difference from the first" in said
+    assert "since_first" not in said, "history.csv keeps its names, the page has words"
     assert "how B was assembled" in said
     assert "it differs by +0.0498°" in said
     for of_time in ("crash", "History", "before", "What changed", "nothing changed"):

@@ -132,3 +132,12 @@ def test_an_offset_in_a_column_of_its_own_is_added_wherever_the_column_stands():
             f"a,alpha,d,{head}\n0,90,200,{'q1,0' if row[0] == 'q' else '0,q1'}\n0,0,0,{row}\n", "arm"
         )
         assert joints.dh.joints[1].theta_offset_deg == -90
+
+
+def test_numbers_of_the_rows_before_a_table_without_a_header_are_told_from_its_own():
+    plain = parse_dh_table("0,90,89.2,q1\n-425,0,0,q2\n-392,0,0,q3\n", "arm")
+    counted = parse_dh_table("1,0,90,89.2,q1\n2,-425,0,0,q2\n3,-392,0,0,q3\n", "arm")
+    assert counted.dh == plain.dh
+    assert counted.source["dh columns"] == "guessed: the row's number first, then a, alpha, d, theta"
+    with pytest.raises(InputError, match="4 numbers in a row"):
+        parse_dh_table("1,0,90,89.2,q1\n3,-425,0,0,q2\n", "arm")

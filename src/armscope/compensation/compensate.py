@@ -196,7 +196,7 @@ def _foretold(identified: Identified, measured: bool) -> tuple[str, ...]:
         "more of the recorded rows fit nothing of this model than bad shots would, and they are in that number: "
         "measure some of them again, and diagnose anew, before these commands are used"
     )
-    missing = f"the arm will miss what the model does: {told}{'' if measured else shifted}"
+    missing = f"the arm will miss by what the model misses: {told}{'' if measured else shifted}"
     return (missing, *([doubt] if identified.many_fit_nothing else []))
 
 

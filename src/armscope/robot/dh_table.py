@@ -64,6 +64,9 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
         lines = lines[1:]
     if not lines:
         raise InputError(TABLE, "", "a header alone", "rows of a, alpha, d, theta are needed")
+    if names is USUAL and _is_counted(lines):
+        names = ("", *USUAL)
+        source["dh columns"] = "guessed: the row's number first, then a, alpha, d, theta"
     rows = [_row(line, number, names) for number, line in lines]
     if names is USUAL:
         source["dh columns"] = f"guessed: in the order a, alpha, d, theta ({len(rows[0].cells)} numbers in a row)"
@@ -78,6 +81,13 @@ def parse_dh_table(text: str, name: str, convention: Convention = "standard") ->
     if (actuation := motors_of_rows(thetas, source)) is not None:
         content["actuation"] = actuation
     return validate(RobotDescription, content, TABLE)
+
+
+def _is_counted(lines: Sequence[tuple[int, str]]) -> bool:
+    """Whether rows of five cells without a header begin with 1, 2, 3 ...: each its own number."""
+    rows = [_cells(line, number) for number, line in lines]
+    begun = [row[0] for row in rows if len(row) == 1 + len(USUAL)]
+    return len(begun) == len(rows) and begun == [str(n) for n in range(1, len(rows) + 1)]
 
 
 def _cells(line: str, number: int) -> list[str]:

@@ -27,6 +27,12 @@ from armscope.report.style import save_figure
 from armscope.verdict.wording import capitalised, decimals_for, millimetres, places_in_words, read_parameter
 
 PAGE, DATA, TABLE, FIGURE = "changes.html", "comparison.json", "history.csv", "history.png"
+IN_WORDS = {
+    "stderr": "its standard error",
+    "since_first": "difference from the first",
+    "since_first_stderr": "the difference's standard error",
+}
+"""What columns of the history are called on the page; history.csv keeps their names."""
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
 LEFT_OPEN = "left open by these poses, unlike the difference"
 UNKNOWN = "left open by these poses"
@@ -101,7 +107,7 @@ def write_changes(found: Comparison, folder: Path) -> Path:
         cards=[_card(found, change) for change in found.changes],
         figure=folder / "history.svg" if numbers else None,
         left_out=numbers - len(drawn_numbers(found)),
-        history=history,
+        history=history.rename(columns=IN_WORDS),
         recordings=recordings_table(found),
         points=measured_points_table(found),
         shots=capitalised(f"{shots}.") if (shots := told_of_shots(found.bad_shots, MOST_SHOTS)) else "",
