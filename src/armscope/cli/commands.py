@@ -98,7 +98,8 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
         _refuse_endless(values)
-        with _silence() if quiet else plain_words(), pipes_kept():
+        data = bool(values.get("json")) or any(map(is_stream, _paths(values[name] for name in outputs)))
+        with _silence(data) if quiet else plain_words(), pipes_kept():
             if outputs:
                 deliver(force, values)
             else:
@@ -140,10 +141,11 @@ def _refuse_endless(values: dict[str, Any]) -> None:
 
 
 @contextlib.contextmanager
-def _silence() -> Iterator[None]:
-    """Words go nowhere; errors are told where commands end."""
-    with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
-        yield
+def _silence(data: bool) -> Iterator[None]:
+    """Words go nowhere; errors are told where commands end, and data that was asked for on standard output gets there."""
+    with open(os.devnull, "w") as nowhere, contextlib.redirect_stderr(nowhere):
+        with contextlib.nullcontext() if data else contextlib.redirect_stdout(nowhere):
+            yield
 
 
 def _paths(values: Iterable[Any]) -> list[Path]:
