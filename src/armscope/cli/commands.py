@@ -142,10 +142,13 @@ def _refuse_endless(values: dict[str, Any]) -> None:
 
 @contextlib.contextmanager
 def _silence(data: bool) -> Iterator[None]:
-    """Words go nowhere; errors are told where commands end, and data that was asked for on standard output gets there."""
-    with open(os.devnull, "w") as nowhere, contextlib.redirect_stderr(nowhere):
-        with contextlib.nullcontext() if data else contextlib.redirect_stdout(nowhere):
-            yield
+    """Words go nowhere; errors are told where commands end, and data that was asked for goes to standard output."""
+    with contextlib.ExitStack() as silent:
+        nowhere = silent.enter_context(open(os.devnull, "w"))
+        silent.enter_context(contextlib.redirect_stderr(nowhere))
+        if not data:
+            silent.enter_context(contextlib.redirect_stdout(nowhere))
+        yield
 
 
 def _paths(values: Iterable[Any]) -> list[Path]:
