@@ -158,7 +158,7 @@ def diagnose_motion(
     """
     settings = settings or MotionSettings()
     motions, alone = without_spikes(motions)
-    motions, turns = counted_on(motions)
+    motions, turns = counted_on(_without_unknown_temperature(motions))
     motions, standing = runs_in_motion(motions)
     _refuse_unknown(settings.held_out, motions)
     progress("laying samples on an even grid", 0.0)
@@ -175,12 +175,12 @@ def diagnose_motion(
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = select_causes(layout, train, how, runs, weighing, replace(first.model, turning=turning.late))
-    selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
-    selected, sure = told_links(selected, _carried(motions))
+    selected = _that_stands(selected, with_changes(selected, seen, train, how, weighing), how.rate)
+    selected, sure = told_links(selected)
     progress("measuring on motion that took no part", 0.75)
     apart = build_rows(selected.rows.layout, test, how, model_of(selected)) if test else None
     parts, what = held_out_parts(selected, apart, settings.held_out)
-    selected, sure = without_what_harms(selected, sure, parts, _carried(motions))
+    selected, sure = without_what_harms(selected, sure, parts)
     notices += [*told, *gaps(motions), *_of_the_selection(selected)]
     verdict, held, entered = _judged(selected, sure, parts, what)
     twists = judged_twists(selected, seen, train, how)
@@ -202,6 +202,12 @@ def _of_the_selection(selected: SelectedCauses) -> list[Notice]:
     """What is said beside the names: how little the motion tells, of gains, and of a stated load."""
     of_gains = [*level_told(selected.rows.layout), *told_gains(selected)]
     return [*little_excited(selected), *of_gains, *load_or_link(selected)]
+
+
+def _without_unknown_temperature(motions: Motions) -> Motions:
+    """Without temperatures where a run has none: what follows them could not be formed there."""
+    unknown = motions.temperature is not None and np.isnan(motions.temperature).any()
+    return replace(motions, temperature=None) if unknown else motions
 
 
 def _refuse_unknown(runs: Sequence[str], motions: Motions) -> None:
@@ -230,13 +236,6 @@ def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> st
     if nothing and any(notice.kind == CUT_OFF for notice in notices):
         told = f"Beside samples that are cut off, {told[0].lower()}{told[1:]}"
     return " ".join([told, *(notice.text for notice in notices if notice.kind in kinds)])
-
-
-def _carried(motions: Motions) -> dict[str, float]:
-    """Stated payload of each run, kg; none where none is stated."""
-    if motions.payload is None:
-        return {}
-    return {str(run): float(np.nan_to_num(np.mean(motions.payload[motions.run == run]))) for run in motions.runs}
 
 
 def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:

@@ -62,6 +62,10 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
     if rows.temperature is None and follows & set(WARM):
         rule = "a cause in the model follows it, so it must be known in every row"
         raise InputError(rows.source, "line 1", "no column temperature_c", rule, "Add it to the table.")
+    if rows.temperature is not None and follows & set(WARM) and np.isnan(rows.temperature).any():
+        run = rows.run[np.isnan(rows.temperature).any(axis=1)][0]
+        rule = "a cause in the model follows it, so it must be known in every run"
+        raise InputError(rows.source, f"run {run}", "no temperature in any row", rule, "State it once at least.")
     fitted, left_out = of_other_motion(fitted)
     torque, notes = torque_of_rows(fitted, rows)
     table = (
@@ -75,7 +79,7 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
             table[f"q{j + 1}_link_{'m' if fitted.arm.sliding[j] else 'rad'}"] = links[:, j]
     if fitted.kind == "current":
         table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
-    return table, [*(notice.text for notice in turns), *notes, *left_out]
+    return table, [*rows.notes, *(notice.text for notice in turns), *notes, *left_out]
 
 
 def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:

@@ -24,7 +24,7 @@ from armscope.motion.model.file_check import CauseReader
 from armscope.motion.model.fitted import MotionModel, fitted_model, predicted_torque
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from armscope.motion.predicting import torque_of_rows
+from armscope.motion.predicting import torque_of_rows, torque_table
 from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
 from armscope.motion.verdict import relative
@@ -79,6 +79,16 @@ def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tm
     assert not notes
     assert relative(measured - expected, measured) == pytest.approx(found.verdict.held_out.model, rel=1e-3)
     assert found.verdict.held_out.model < 0.7 * found.verdict.held_out.background
+
+
+def test_a_run_without_any_temperature_is_not_predicted_where_the_model_follows_it() -> None:
+    """It ended in an error of SciPy, or in cells without a number."""
+    motions = moved(robot(), 6, runs=2, seconds=3.0)
+    object.__setattr__(
+        motions, "temperature", np.where((motions.run == "path 2")[:, None], np.nan, 25.0) + 0 * motions.q
+    )
+    with pytest.raises(InputError, match="run path 2: found 'no temperature in any row'"):
+        torque_table(every_cause(), motions)
 
 
 def test_a_model_read_back_predicts_the_same_whatever_is_in_it(tmp_path: Path) -> None:

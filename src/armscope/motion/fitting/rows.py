@@ -75,6 +75,12 @@ class MotionRows:
                 found[there] -= np.column_stack([self._at(j, lacking, rows) for j in range(len(self.columns))])
         return found
 
+    def stated_payload(self, runs: Sequence[str]) -> float:
+        """Kg that are stated in some runs, or in all where none is given, in the mean of their samples."""
+        there = [each.signals for each in self.samples if not runs or each.signals.run in runs]
+        stated = [np.zeros(len(each.time)) if each.payload is None else each.payload for each in there]
+        return float(np.mean(np.concatenate(stated))) if stated else 0.0
+
     @property
     def moving(self) -> NDArray[np.bool_]:
         """(K, m) where a joint moves and no force of a pause is most of what a row holds."""
