@@ -20,7 +20,7 @@ from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.predicting import torque_table
 from armscope.motion.samples.timing import stretches
 from armscope.recordings.motions import Motions
-from tests.motion.moving import COULOMB, Plant, clinging, moved, presliding, robot
+from tests.motion.moving import COULOMB, Plant, carrying, clinging, moved, presliding, robot
 
 WIDE, JOINT, RATE = 0.04, 1, 200.0
 
@@ -83,6 +83,16 @@ def test_a_wide_change_of_sides_is_seen_at_its_joint_alone() -> None:
 @pytest.mark.parametrize("plant", [None, falling, bending], ids=["none", "falling", "bending"])
 def test_nothing_else_of_friction_over_speed_is_a_wide_change(plant: Plant | None) -> None:
     assert widths(plant) is None
+
+
+def test_a_load_that_one_run_has_and_nobody_stated_changes_nothing_of_how_friction_turns() -> None:
+    """It was the largest of all that is left, and any width that follows it a little was the best."""
+    load = carrying(3, 25.0).effort - carrying(3, 0.0).effort
+    for plant in (None, wide):
+        motions = moved(robot(), 3, plant, runs=3)
+        without, loaded = turning(motions), turning(replace(motions, effort=motions.effort + load))
+        np.testing.assert_array_equal(loaded.width, without.width)
+        np.testing.assert_allclose(loaded.late, without.late, atol=1e-3)
 
 
 @pytest.mark.parametrize(("order", "hz"), [(2, 25.0), (1, 15.0)])

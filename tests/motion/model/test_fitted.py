@@ -84,10 +84,9 @@ def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tm
 def test_a_run_without_any_temperature_is_not_predicted_where_the_model_follows_it() -> None:
     """It ended in an error of SciPy, or in cells without a number."""
     motions = moved(robot(), 6, runs=2, seconds=3.0)
-    object.__setattr__(
-        motions, "temperature", np.where((motions.run == "path 2")[:, None], np.nan, 25.0) + 0 * motions.q
-    )
-    with pytest.raises(InputError, match="run path 2: found 'no temperature in any row'"):
+    unknown = np.broadcast_to((motions.run == "path 2")[:, None], motions.q.shape)
+    object.__setattr__(motions, "temperature", np.where(unknown, np.nan, 25.0))
+    with pytest.raises(InputError, match="run path 2: found no temperature in any row"):
         torque_table(every_cause(), motions)
 
 

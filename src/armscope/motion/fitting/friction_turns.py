@@ -107,12 +107,21 @@ class _Joint:
         self.moving = np.flatnonzero(rows.moving[:, j])
         own = rows.columns[j][self.moving].astype(np.float64)
         sides = np.isin(rows.at[j], OWN * j + np.array(SIDES))
-        self.basis = spanned(own[:, ~sides], FILTER.single)
+        self.basis = spanned(np.hstack([own[:, ~sides], *self._loads_of_runs(own)]), FILTER.single)
         stated = np.nan_to_num(arm.stated_background[j, DRY]) * own[:, np.searchsorted(rows.at[j], OWN * j + DRY)]
         self.left = self.apart(rows.torque[self.moving, j] - rows.nominal[self.moving, j] + stated)
         self.slope = self.apart(-np.gradient(rows.nominal[:, j])[self.moving, None])
         per_cycle = how.rate / how.every / how.cutoff
         self.independent = len(self.moving) * min(FILTER.rows_per_cutoff / per_cycle, 1.0)
+
+    def _loads_of_runs(self, own: Array) -> Iterator[Array]:
+        """(moving, 10) of each run but the first: what the last link would have there alone.
+
+        A load that nobody stated is no torque of friction, and larger than all that tells how friction turns.
+        """
+        of_last, run = np.isin(self.rows.at[self.j], self.rows.layout.inertial[-10:]), self.rows.run[self.moving]
+        for name in np.unique(run)[1:]:
+            yield own[:, of_last] * (run == name)[:, None]
 
     @property
     def is_told(self) -> bool:
