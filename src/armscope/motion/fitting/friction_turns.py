@@ -20,6 +20,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.inference.constants import PRIORS
 from armscope.inference.linear_algebra import spanned
 from armscope.motion.constants import LIBRARY, PRIOR
 from armscope.motion.fitting.model_estimate import stated_model
@@ -175,21 +176,22 @@ class _Joint:
         others = (sides[:, :0], usual, self.apart(-np.gradient(modelled)[self.moving, None]))
         least = min(*beside, *(self.cost(np.hstack([sides, each])) for each in others))
         law = laws[int(np.argmin(beside))]
-        cost = self._cost_of(tried, law)
+        price = PRIORS.sure_nats + float(np.log(len(laws) * len(FILTER.wider)))  # a name's, and of what was tried
+        cost = self._cost_of(tried, law, price)
         if cost:
             about = min(cost, key=cost.__getitem__) * np.array(FILTER.between_wider)
             most = self.usual * FILTER.wider[-1]
-            cost |= self._cost_of([width for width in about if self.sharp < width <= most], law)
+            cost |= self._cost_of([width for width in about if self.sharp < width <= most], law, price)
         best = min(cost, key=cost.__getitem__, default=self.sharp)
         return best if cost.get(best, np.inf) < least - INDISTINGUISHABLE_NATS else self.sharp
 
-    def _cost_of(self, widths: Sequence[float], law: functools.partial[Array]) -> dict[float, float]:
-        """Of friction that changes sides within each of some widths, by itself or with a law over its speed."""
+    def _cost_of(self, widths: Sequence[float], law: functools.partial[Array], price: float) -> dict[float, float]:
+        """Of friction that changes sides within each of some widths, by itself or, at a price, with a law."""
         found = {}
         for width in map(float, widths):
             sides = self.formed(functools.partial(_later, width=width))
             with_law = np.hstack([sides, self.formed(functools.partial(law, width=width))])
-            found[width] = min(self.cost(sides), self.cost(with_law))
+            found[width] = min(self.cost(sides), self.cost(with_law) + price)
         return found
 
     def formed(self, law: OfSpeed) -> Array:
