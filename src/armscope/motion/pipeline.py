@@ -123,13 +123,15 @@ class MotionDiagnosis:
         """What model.yaml holds."""
         layout = self.selected.rows.layout
         numbers = [effect.candidate for effect in self.selected.best.chosen]
-        return fitted_model(
+        q = self.selected.rows.q
+        fitted = fitted_model(
             layout,
             self.selected.told,
             [(n, values_of(self.selected, n), covariance_of(self.selected, n, self.sure.factor)) for n in numbers],
             self.how,
             tuple(cause for twist in self.twists for cause in twist.fitted),
         )
+        return replace(fitted, positions=np.column_stack([q.min(axis=0), q.max(axis=0)]))
 
 
 def diagnose_motion(

@@ -209,7 +209,7 @@ class Seen:
         speeds: (m, K) speeds without their sign, evenly spaced among all.
         load: (m,) largest torque that the stated masses ask for, N m.
         effort: (m,) RMS of the recorded torque.
-        time: (2,) s, first and last, of the longest run.
+        time: (2,) s, first and last, of runs since each began.
         temperature: (m, 2) deg C, or None.
         running_min: min that all runs take together.
         runs: names in order.

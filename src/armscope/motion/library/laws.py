@@ -198,7 +198,7 @@ DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
     "joint angle": lambda m, j: m.signals.q[:, j],
     "speed": lambda m, j: m.signals.dq[:, j],
     "load": lambda m, j: m.load[:, j],
-    "time": lambda m, j: m.signals.time,
+    "time": lambda m, j: m.signals.time - m.signals.began,
     "temperature": warmth,
 }
 """What a free curve may follow."""

@@ -40,6 +40,7 @@ class MotionModel:
         response: by how much of its second derivative drives round a torque off, s^2.
         width_of_sides: (m,) rad/s (m/s) within which friction changes sides; None: as sharply as fits take it to.
         order_of_sides: (m,) of the low-pass by which it does so late; None or 0: it is shifted.
+        positions: (m, 2) rad (m), least and largest of the motion that it was fitted to; None: not known.
         links: why links lie beside their motors, rad (m): of joints where both were recorded.
     """
 
@@ -54,6 +55,7 @@ class MotionModel:
     links: tuple[FittedCause, ...] = ()
     width_of_sides: Array | None = None
     order_of_sides: Indices | None = None
+    positions: Array | None = None
 
     def followed(self) -> Estimate:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""

@@ -187,6 +187,7 @@ class Signals:
         twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
         cut: (K, m) rows that hold some effort that was cut off; or None.
         running: (N,) s that the arm has run, or None.
+        began: s, when the run began.
     """
 
     run: str
@@ -204,6 +205,7 @@ class Signals:
     twist: Array | None = None
     cut: NDArray[np.bool_] | None = None
     running: Array | None = None
+    began: float = 0.0
 
     def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
         """(N,) velocity and acceleration of a joint's motor some time ago, s: a cubic by both between samples."""
@@ -276,6 +278,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         None if twist is None or every_sample else how.low_passed(twist, rows - low),
         stretch.cut_about(rows, READING.cut_reach / how.cutoff),
         None if stretch.running is None else stretch.running[inside][::stride],
+        stretch.began,
     )
 
 

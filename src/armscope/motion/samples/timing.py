@@ -23,6 +23,7 @@ class Stretch:
 
     ``cut``: (N, m) where the effort was cut off at the most that its channel shows; None for nowhere. ``since``: s that
     the arm had run before the first sample, if it ran on from one run of the table to the next; None: not known.
+    ``began``: s, when its run began, by the run's own stamps.
     """
 
     run: str
@@ -35,6 +36,7 @@ class Stretch:
     link: Array | None = None
     cut: NDArray[np.bool_] | None = None
     since: float | None = None
+    began: float = 0.0
 
     def __len__(self) -> int:
         return len(self.time)
@@ -202,14 +204,15 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
 def stretches(motions: Motions) -> Iterator[Stretch]:
     """The runs on even grids, parted where samples are missing; all at one rate, that of the middle one of them."""
     period, pieces = parted(motions)
-    began, so_far = {}, 0.0
+    began, before, so_far = {}, {}, 0.0
     for run in motions.runs:
         time = motions.time[motions.run == run]
-        began[run] = so_far - time[0]
+        began[run], before[run] = float(time[0]), so_far
         so_far += float(np.ptp(time))
     for run, rows in pieces:
         if len(rows) > 1:
-            yield replace(_even(motions, rows, run, period), since=float(began[run] + motions.time[rows[0]]))
+            since = before[run] + float(motions.time[rows[0]]) - began[run]
+            yield replace(_even(motions, rows, run, period), since=since, began=began[run])
 
 
 def parted(motions: Motions) -> tuple[float, list[tuple[str, Indices]]]:
