@@ -6,7 +6,8 @@ from scipy.interpolate import make_interp_spline
 
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.laws import Law
-from armscope.motion.samples.preparation import Signals, without_lag
+from armscope.motion.samples.low_pass import without_lag
+from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from tests.motion.moving import path, robot
 

@@ -23,7 +23,7 @@ from armscope.motion.library.rocking import rocking
 from armscope.motion.library.sides import side
 from armscope.motion.library.warmth import RUNNING, warm, warmth, while_running
 from armscope.motion.library.waves import wave
-from armscope.motion.samples.preparation import without_lag
+from armscope.motion.samples.low_pass import without_lag
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ class TimingRules(Constants):
     )
     slower: float = constant(
         1.2,
-        "a run sampled more slowly than the common rate by this factor has its positions laid by a spline",
+        "a run sampled more slowly than the common rate by this factor has its positions laid by a spline; one sampled "
+        "faster is low-passed before",
         "judgement: beyond jitter",
     )
     gap: float = constant(

@@ -13,6 +13,7 @@ from armscope.core.averages import robust_scale
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import READING, TIMING
+from armscope.motion.samples.low_pass import without_what_is_faster
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 
@@ -253,13 +254,18 @@ def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretc
     time = motions.time[rows]
     grid = time[0] + period * np.arange(int(np.floor((time[-1] - time[0]) / period + 1e-6)) + 1)
 
+    own = float(np.median(np.diff(time)))
+
     def laid(values: Array | None) -> Array | None:
         if values is None:
             return None
-        return np.column_stack([np.interp(grid, time, column) for column in values[rows].reshape(len(rows), -1).T])
+        columns = values[rows].reshape(len(rows), -1)
+        if own * TIMING.slower < period:
+            columns = without_what_is_faster(columns, time, own, period)
+        return np.column_stack([np.interp(grid, time, column) for column in columns.T])
 
     q, effort = laid(motions.q), laid(motions.effort)
-    if float(np.median(np.diff(time))) > TIMING.slower * period and len(rows) > 3:
+    if own > TIMING.slower * period and len(rows) > 3:
         from scipy.interpolate import make_interp_spline  # takes long to import: a table that is refused needs none
 
         # straight lines between samples that are far apart have corners: acceleration that the arm never had
