@@ -57,7 +57,7 @@ def parted_in_two(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> 
     if (short := too_short(motions)) is not None:
         raise short
     found = Parted([], [], [])
-    idle = unread(motions.run, motions.time, motions.q, motions.effort) | rails(motions, arm).at
+    idle = unread(motions) | rails(motions, arm).at
     dropped: dict[str, list[float]] = {run: [] for run in motions.runs}
     for stretch in stretches(motions):
         seconds = len(stretch) / stretch.rate

@@ -10,7 +10,6 @@ import numpy as np
 
 from armscope.core.types import Progress, unheard
 from armscope.motion.check import COARSE, CUT_OFF, check_motions, refuse_few, runs_in_motion
-from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
 from armscope.motion.fitting.pauses import pauses_in_words
@@ -29,6 +28,7 @@ from armscope.motion.model.fitted import MotionModel, fitted_model
 from armscope.motion.parting import parted_in_two, refuse_unknown
 from armscope.motion.samples.preparation import Preparation
 from armscope.motion.samples.spikes import without_spikes
+from armscope.motion.samples.standing import still_span
 from armscope.motion.samples.timing import gaps, mended
 from armscope.motion.samples.turns import counted_on
 from armscope.motion.summary.badly_met import badly_met
@@ -167,7 +167,7 @@ def diagnose_motion(
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     plain = plain_rows(arm, train, how)
     turning = how_friction_turns(plain, how)
-    seen = replace(seen_in(arm, train, LIBRARY.still_rad), stand=ringing(plain, how))
+    seen = replace(seen_in(arm, train, still_span(arm.sliding)), stand=ringing(plain, how))
     seen = replace(seen, waves=first.waves, motion_hz=how.motion_hz, width_of_sides=turning.wide(arm))
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides, turning.order)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)

@@ -13,13 +13,13 @@ from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
 
-def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
+def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: Array | float) -> Seen:
     """Ranges of what causes follow, from some of the samples.
 
     Args:
         arm: the arm.
         stretches: even samples.
-        still: a joint that spans less stands, rad or m.
+        still: a joint that spans less stands, rad or m; of all, or (m,).
 
     Returns:
         What the library needs to know of the table.
