@@ -58,3 +58,24 @@ def without_what_is_faster(values: Array, time: Array, own: float, period: float
         smooth = without_lag(np.interp(even, time, values[:, c]), cutoff, 1 / own, int(np.ceil(period / own)), True)
         found[:, c] = np.interp(time, even, smooth)
     return found
+
+
+def mean_about(grid: Array, period: float, time: Array, values: Array) -> Array:
+    """Means over the time of each sample of a coarser grid, as friction that changes sides within one is formed.
+
+    A low-pass would round these steps off, and what they lack then has the shape of friction that falls near rest.
+
+    Args:
+        grid: (K,) s, the middles.
+        period: s, between them.
+        time: (N,) s, of the values.
+        values: (N, c).
+
+    Returns:
+        (K, c).
+    """
+    steps = np.diff(time)[:, None] * (values[1:] + values[:-1]) / 2
+    whole = np.vstack([np.zeros((1, values.shape[1])), np.cumsum(steps, axis=0)])
+    low, high = np.maximum(grid - period / 2, time[0]), np.minimum(grid + period / 2, time[-1])
+    sums = [np.interp(high, time, column) - np.interp(low, time, column) for column in whole.T]
+    return np.asarray(np.column_stack(sums) / (high - low)[:, None])

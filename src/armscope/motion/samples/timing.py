@@ -13,7 +13,7 @@ from armscope.core.averages import robust_scale
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import READING, TIMING
-from armscope.motion.samples.low_pass import without_what_is_faster
+from armscope.motion.samples.low_pass import mean_about, without_what_is_faster
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 
@@ -265,6 +265,8 @@ def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretc
         return np.column_stack([np.interp(grid, time, column) for column in columns.T])
 
     q, effort = laid(motions.q), laid(motions.effort)
+    if own * TIMING.slower < period:
+        effort = mean_about(grid, period, time, motions.effort[rows])
     if own > TIMING.slower * period and len(rows) > 3:
         from scipy.interpolate import make_interp_spline  # takes long to import: a table that is refused needs none
 
