@@ -81,3 +81,10 @@ def test_a_urdf_on_a_pipe_is_one_error(tmp_path):
 def test_a_named_pipe_is_diagnosed(tmp_path):
     words = ("diagnose", "PIPE", "-r", ROBOT, "-o", tmp_path / "out", "--no-report", "--resamples", "0")
     assert "Joint 2" in by_pipe(tmp_path, TABLE.read_bytes(), *words)
+
+
+def test_quiet_silences_words_and_no_data(tmp_path):
+    """`predict -o - --quiet` wrote nothing, and so did every `--json --quiet`, with exit code 0."""
+    assert run("predict", ROBOT, TABLE, "-o", "-", "--quiet") == run("predict", ROBOT, TABLE, "-o", "-")
+    assert "suspicions" in json.loads(run("check", TABLE, "-r", ROBOT, "--json", "--quiet"))
+    assert run("check", TABLE, "-r", ROBOT, "--quiet") == ""

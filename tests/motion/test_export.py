@@ -19,7 +19,7 @@ from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_m
 from armscope.motion.simulated_bodies import bodies
 from armscope.robot.constants import WRITTEN
 from armscope.robot.description import Drive
-from armscope.robot.dynamics import load_moving_arm
+from armscope.robot.dynamics import build_moving_arm, load_moving_arm
 from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, path, robot
 
 LOAD = {"mass_kg": 1.5, "com_mm": [0, 0, 0]}
@@ -100,6 +100,65 @@ def test_the_urdf_is_an_arm_with_the_fitted_masses(found: MotionDiagnosis, folde
     )
     (folder / "kept" / "robot.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")
     np.testing.assert_allclose(load_moving_arm(folder / "kept" / "robot.yaml").inertial, again.inertial, atol=1e-9)
+
+
+WITH_A_HAND = """<robot name="hand"><link name="base"/>
+{moving}
+<link name="wrist"/>
+<joint name="wrist" type="fixed"><parent link="l2"/><child link="wrist"/><origin xyz=".3 0 0"/></joint>
+{held}</robot>"""
+LINK = """<link name="{0}"><inertial><origin xyz=".1 .02 .01"/><mass value="{1}"/>
+<inertia ixx=".02" iyy=".03" izz=".03" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="{2}" type="{3}"><parent link="{4}"/><child link="{0}"/><origin xyz="{5}" rpy="0.1 0 0.2"/><axis xyz="{6}"/>
+<limit lower="-3" upper="3" effort="9" velocity="9"/></joint>"""
+
+
+@pytest.fixture
+def hand(tmp_path: Path) -> Path:
+    """robot.yaml of two joints that carry a finger, which slides, and a thumb, which turns; both are held elsewhere."""
+    moving = LINK.format("l1", 8, "j1", "revolute", "base", "0 0 .3", "0 0 1")
+    moving += LINK.format("l2", 5, "j2", "revolute", "l1", ".4 0 0", "0 1 0")
+    held = LINK.format("finger", 0.5, "slide", "prismatic", "wrist", ".05 .03 0", "0 1 0")
+    held += LINK.format("thumb", 0.4, "turn", "revolute", "wrist", ".05 -.03 0", "0 0.6 0.8")
+    (tmp_path / "arm.urdf").write_text(WITH_A_HAND.format(moving=moving, held=held), encoding="utf-8")
+    content = {"name": "hand", "urdf": "arm.urdf", "tip": "wrist", "hold_joints": {"slide": 0.02, "turn": 0.7}}
+    (tmp_path / "robot.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")
+    return tmp_path / "robot.yaml"
+
+
+def test_what_the_arm_holds_is_fixed_where_it_is_held(found: MotionDiagnosis, hand: Path) -> None:
+    """Fingers without mass slid freely: no simulator took them."""
+    arm = load_moving_arm(hand)
+    fitted = {"inertial": arm.inertial, "causes": (), "joints": np.ones((2, 7)), "gains": np.zeros(2)}
+    model = replace(found.model, arm=arm, width_of_sides=None, order_of_sides=None, **fitted)
+    (hand.parent / "corrected.urdf").write_text(corrected_urdf(model, hand.parent), encoding="utf-8")
+    (hand.parent / "again.yaml").write_text(yaml.safe_dump({"name": "a", "urdf": "corrected.urdf", "tip": "thumb"}))
+    again = load_moving_arm(hand.parent / "again.yaml")
+    whole = mujoco.MjModel.from_xml_path(str(hand.parent / "corrected.urdf"))
+    np.testing.assert_allclose(again.inertial, arm.inertial, atol=1e-12)
+    assert whole.nv == 2
+    poses = [each.model.frames[each.model.getFrameId("thumb")].placement.homogeneous for each in (arm, again)]
+    np.testing.assert_allclose(poses[1], poses[0], atol=1e-12)
+
+
+def test_a_motor_that_turns_its_joint_the_other_way_has_its_friction(found: MotionDiagnosis) -> None:
+    """One sign in `actuation` took friction and rotors off all joints; its limits are its motor's, turned."""
+    turned = found.arm.description.model_copy(
+        update={"actuation": [{"q1": 1.0}, {"q2": -1.0}, {"q3": 1.0}], "joint_limits_deg": [(-100.0, 20.0)] * 3}
+    )
+    model = replace(found.model, arm=build_moving_arm(turned))
+    robot_file = ET.fromstring(corrected_urdf(model, Path()))
+    dry = [float(each.get("friction", 0)) for each in robot_file.iter("dynamics")]
+    np.testing.assert_allclose(dry, model.joints[:, 1])
+    within = [(float(each.get("lower", 0)), float(each.get("upper", 0))) for each in robot_file.iter("limit")]
+    np.testing.assert_allclose(np.degrees(within), [(-100, 20), (-20, 100), (-100, 20)])
+
+
+def test_limits_of_motors_that_turn_several_joints_are_no_joints(found: MotionDiagnosis) -> None:
+    coupled = found.arm.description.model_copy(
+        update={"actuation": [{"q1": 1.0}, {"q2": 1.0}, {"q3": 1.0, "q2": -1.0}], "joint_limits_deg": [(-9.0, 9.0)] * 3}
+    )
+    assert "<limit" not in corrected_urdf(replace(found.model, arm=build_moving_arm(coupled)), Path())
 
 
 def test_the_table_holds_every_parameter_with_its_error(found: MotionDiagnosis, folder: Path) -> None:

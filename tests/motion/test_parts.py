@@ -31,9 +31,10 @@ from armscope.motion.samples import preparation as preparation_room
 from armscope.motion.samples.constants import CUTOFF, FILTER
 from armscope.motion.samples.preparation import parts, preparation
 from armscope.motion.samples.timing import Stretch, mended, stretches
+from armscope.motion.summary.headline import headline
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import folds
-from armscope.motion.summary.judgement import answer_of, headline
+from armscope.motion.summary.judgement import answer_of
 from armscope.motion.verdict import FoundCause, UnexplainedTorque, relative
 from armscope.recordings.motions import Motions
 from armscope.verdict.effects import Parameter

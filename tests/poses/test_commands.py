@@ -1,6 +1,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -37,6 +38,8 @@ def test_effects_that_follow_context_get_its_columns(tmp_path):
     run("-n", 15, "-o", path, "--effects", "backlash,joint_compliance", "--payload-kg", 10, *FEW)
     table = read_recordings(path, 6, measured=False)
     assert table.approach is not None
+    # driven in the order of the file: sides that were drawn agreed with the way in half of all cells
+    np.testing.assert_array_equal(table.approach[1:], np.sign(np.diff(table.motor_angles, axis=0)))
     assert set(table.payload.tolist()) == {0.0, 10.0}
 
 

@@ -63,3 +63,11 @@ def test_products_with_mass_moments_have_no_panel_beside_the_compliance_that_the
         assert len(history_table(found)) == 3 * len(parameters), "the table keeps them"
         page = write_changes(found, tmp_path / str(panels)).read_text()
         assert ("3 further numbers are in the table" in page) == (panels == 1)
+
+
+def test_the_page_has_words_where_the_table_has_names_of_columns(tmp_path):
+    said = write_changes(FOUND, tmp_path).read_text()
+    assert "difference from the first" in said
+    assert "before (mean of these recordings)" in said
+    assert "since_first" not in said
+    assert "since_first" in (tmp_path / "history.csv").read_text()

@@ -10,7 +10,7 @@ import numpy as np
 
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
 from armscope.motion.summary.entering import Entered
-from armscope.motion.summary.judgement import MASSES_OFF
+from armscope.motion.summary.headline import MASSES_OFF
 from armscope.motion.summary.lasting import LASTS
 from armscope.motion.verdict import UnexplainedTorque
 from armscope.report.pages.motion import write_motion_report

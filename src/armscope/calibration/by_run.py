@@ -11,7 +11,7 @@ import pandas as pd
 from armscope.calibration.constants import CALIBRATING
 from armscope.calibration.fit import placed
 from armscope.calibration.model import SetUp
-from armscope.calibration.splits import foretold, random_split
+from armscope.calibration.splits import foretold, parts_to_test
 from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
 from armscope.recordings import Recordings
@@ -19,8 +19,9 @@ from armscope.recordings import Recordings
 ALL = "all"
 
 
+# so many parameters: a table and its calibration (three), how that is done again (one), and how it is tested (two)
 def misses_by_run(
-    rows: SetUp, recordings: Recordings, fitted: State, refit: Callable[[SetUp], State], splits: int
+    rows: SetUp, recordings: Recordings, fitted: State, refit: Callable[[SetUp], State], splits: int, parameters: int
 ) -> pd.DataFrame:
     """RMS of the 3D distance by run, and of all rows.
 
@@ -29,7 +30,8 @@ def misses_by_run(
         recordings: the table.
         fitted: the calibration of all rows.
         refit: the same calibration of some of the rows.
-        splits: how often 70 % of the configurations are drawn to learn from.
+        splits: how often 70 % of the configurations are drawn to learn from; see `parts_to_test` of short tables.
+        parameters: how many are fitted.
 
     Returns:
         run ("all" first), rows, in_sample_mm, held_out_mm and held_out_std_mm (mean and standard deviation over the
@@ -44,15 +46,18 @@ def misses_by_run(
     whole = without.residuals(fitted)
     held: dict[str, list[float]] = {name: [] for name in names}
     alone: dict[str, list[float]] = {name: [] for name in names}
-    for seed in range(splits):
-        train, test = random_split(recordings, seed)
-        if len(train) > CALIBRATING.rows_of_runs:
-            train = np.sort(np.random.default_rng(seed).permutation(train)[: CALIBRATING.rows_of_runs])
-        test = foretold(rows, train, test)
-        found = without.residuals(refit(rows.rows(train)))
-        frames = without.residuals(placed(without.rows(train)))
+    for seed, pairs in enumerate(parts_to_test(recordings, splits, parameters)):
+        tested, found, frames = [], np.empty_like(whole), np.empty_like(whole)
+        for train, test in pairs:
+            if len(train) > CALIBRATING.rows_of_runs:
+                train = np.sort(np.random.default_rng(seed).permutation(train)[: CALIBRATING.rows_of_runs])
+            test = foretold(rows, train, test)
+            found[test] = without.residuals(refit(rows.rows(train)))[test]
+            frames[test] = without.residuals(placed(without.rows(train)))[test]
+            tested.append(test)
         for name in names:
-            mine = test[of_run[name][test]]
+            mine = np.concatenate(tested)
+            mine = mine[of_run[name][mine]]
             if len(mine):
                 held[name].append(1e3 * rms_distance(found[mine]))
                 alone[name].append(1e3 * rms_distance(frames[mine]))

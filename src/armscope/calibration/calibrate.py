@@ -83,7 +83,8 @@ def calibrate(
     covariance = _covariance(solved)
     misses = None
     if splits and not doubts:  # what should not be used need not be tested
-        misses = misses_by_run(rows, recordings, fitted.state, lambda some: solved_for(some).fitted.state, splits)
+        free = int(np.count_nonzero(solved.free))
+        misses = misses_by_run(rows, recordings, fitted.state, lambda it: solved_for(it).fitted.state, splits, free)
     return Calibration(
         level=level,
         set_up=rows,

@@ -14,6 +14,11 @@ class CalibratingRules(Constants):
     suspect_sigmas: float = constant(6.0, "of the noise from which a row is told as suspect", "judgement: no chance")
     suspects: int = constant(12, "rows that are told, at most", "judgement: as many are looked at", unit="rows")
     train_share: float = constant(0.7, "of the configurations, to train on", "convention: the published protocols'")
+    numbers_per_parameter: float = constant(
+        1.5,
+        "measured numbers per parameter, with fewer of which 70 % of a table foretell nothing of the whole",
+        "judgement: a third of them is then left for the noise",
+    )
     deciding_splits: int = constant(3, "on which it is decided whether orientations help", "judgement: of speed")
     deciding_rows: int = constant(1000, "to train on that are enough for that", "judgement: of speed", unit="rows")
     harm: float = constant(

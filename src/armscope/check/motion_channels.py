@@ -13,7 +13,7 @@ from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.check import channels
-from armscope.motion.constants import LIBRARY
+from armscope.motion.samples.standing import still_span
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.counting import times
@@ -75,7 +75,7 @@ def odd_channels(samples: Samples, arm: MovingArm, of: Channels, told: Iterator[
     few, along = samples.rows(spread_evenly(len(samples.q), MOTION.rows)), left_along(samples, arm)
     asked = arm.torques(few.q, few.dq, few.ddq, arm.inertial)
     for j, name in enumerate(of.names):
-        moves = np.ptp(few.q[:, j]) > LIBRARY.still_rad
+        moves = np.ptp(few.q[:, j]) > still_span(arm.sliding)[j]
         if not moves or np.ptp(few.effort[:, j]) == 0 or any(each.statement.startswith(f"{name} ") for each in known):
             continue
         effort = few.effort[:, j] * of.gains[j]

@@ -129,7 +129,7 @@ def _doubtful(arm: Arm, recordings: Recordings, misfit: float) -> list[Suspicion
     mistake = explanation(arm, recordings)
     if mistake.kind != WRONG_ROBOT:
         return [mistake]
-    statement = f"base and tool leave {1e3 * misfit:.3g} mm RMS, more than arms that were built to their drawing"
+    statement = f"base and tool leave {1e3 * misfit:.3g} mm RMS, more than an arm leaves that was built to its drawing"
     cure = "Is a joint's zero degrees off, a joint's column or sign another's, or is it another arm?"
     return [Suspicion("hint", statement, cure)]
 

@@ -98,7 +98,8 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     @functools.wraps(function)
     def run(*, force: bool = False, quiet: bool = False, **values: Any) -> None:
         _refuse_endless(values)
-        with _silence() if quiet else plain_words(), pipes_kept():
+        data = bool(values.get("json")) or any(map(is_stream, _paths(values[name] for name in outputs)))
+        with _silence(data) if quiet else plain_words(), pipes_kept():
             if outputs:
                 deliver(force, values)
             else:
@@ -140,9 +141,13 @@ def _refuse_endless(values: dict[str, Any]) -> None:
 
 
 @contextlib.contextmanager
-def _silence() -> Iterator[None]:
-    """Words go nowhere; errors are told where commands end."""
-    with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere), contextlib.redirect_stderr(nowhere):
+def _silence(data: bool) -> Iterator[None]:
+    """Words go nowhere; errors are told where commands end, and data that was asked for goes to standard output."""
+    with contextlib.ExitStack() as silent:
+        nowhere = silent.enter_context(open(os.devnull, "w"))
+        silent.enter_context(contextlib.redirect_stderr(nowhere))
+        if not data:
+            silent.enter_context(contextlib.redirect_stdout(nowhere))
         yield
 
 

@@ -13,6 +13,12 @@ class ComparingRules(Constants):
 
     level: float = constant(0.05, "how often something is named although nothing changed", "convention")
     power: float = constant(0.9, "share of cases in which a change is named that would be seen", "convention")
+    enough_arms: int = constant(
+        5,
+        "of one type, with fewer of which none is unlike the others for certain",
+        "judgement: a zero off by 5 mrad among zeros of 0.4 mrad was named in six arms, and not in four",
+        unit="arms",
+    )
     changes: int = constant(8, "changes of one comparison, at most", "judgement: with more, it is another arm")
     better_nats: float = constant(
         1e-6,

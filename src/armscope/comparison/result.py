@@ -16,7 +16,7 @@ from armscope.core.numerals import size_of
 from armscope.core.told import InWords
 from armscope.core.words import enumerated
 from armscope.verdict.constants import WORDS
-from armscope.verdict.wording import capitalised, places_in_words
+from armscope.verdict.wording import capitalised, places_in_words, spelled
 
 UNLIKE = {
     "came": "is there in {where}, and not in {others}", "went": "is missing in {where}, and there in {others}",
@@ -29,6 +29,7 @@ Kind = Literal["came", "went", "grew", "shrank", "changed"]
 Sense = Literal["more", "less", ""]
 SENSE: dict[Kind, Sense] = {"came": "more", "grew": "more", "went": "less", "shrank": "less"}
 """Whether there is more of a cause where it changed, or less."""
+FEW_ARMS = f" Of fewer than {spelled(COMPARING.enough_arms)} arms only one that is grossly off stands out."
 
 
 @dataclass(frozen=True)
@@ -194,9 +195,10 @@ class Comparison(InWords):
             differs = "These arms differ" if self.of_arms else "Something changed"
             said = f"{differs} ({among}; {chance} that {nothing}), and no cause that was tried can be what it was."
         elif not said and among:
+            few = self.of_arms and len(self.names) < COMPARING.enough_arms
             alike = "No arm is unlike the others" if self.of_arms else f"Nothing{' of the arm' * bool(moved)} changed"
             alike = "No cause differs" if self.noisier or (moved and a_zero) else alike
-            said = f"{alike} that these recordings show ({among}; {chance})."
+            said = f"{alike} that these recordings show ({among}; {chance}).{FEW_ARMS * few}"
         return " ".join(filter(None, (said, self.told_beside)))
 
     @property

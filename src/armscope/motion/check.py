@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError
-from armscope.motion.constants import CHECK, LIBRARY
+from armscope.motion.constants import CHECK
 from armscope.motion.samples.constants import FILTER, READING
 from armscope.motion.samples.rails import Rails, rails
+from armscope.motion.samples.standing import still_span
 from armscope.motion.samples.timing import coarse_steps, parted
 from armscope.motion.samples.unread import unread
 from armscope.recordings.motions import Motions, torque_columns
@@ -75,7 +76,7 @@ def runs_in_motion(motions: Motions) -> tuple[Motions, list[Notice]]:
         InputError: none is left.
     """
     spans = {run: np.ptp(motions.q[motions.run == run], axis=0) for run in motions.runs}
-    standing = [run for run, span in spans.items() if np.all(span <= LIBRARY.still_rad)]
+    standing = [run for run, span in spans.items() if np.all(span <= still_span(motions.sliding))]
     if len(standing) == len(motions.runs):
         raise InputError(motions.source, "columns q1 ...", "no joint that moves", MOVES, "Record a motion.")
     told = [Notice("run stands", f"Run {run}: no joint moves in it. It takes no part.") for run in standing]
@@ -113,7 +114,7 @@ def _refuse_dead(motions: Motions) -> None:
 
 
 def _still_joints(motions: Motions) -> list[Notice]:
-    still = np.flatnonzero(np.ptp(motions.q, axis=0) <= LIBRARY.still_rad)
+    still = np.flatnonzero(np.ptp(motions.q, axis=0) <= still_span(motions.sliding))
     if len(still) == motions.n_motors:
         raise InputError(motions.source, "columns q1 ...", "no joint that moves", MOVES, "Record a motion.")
     return [
@@ -127,7 +128,7 @@ def _one_way(motions: Motions) -> list[Notice]:
     for j in range(motions.n_motors):
         travel = np.concatenate([np.diff(motions.q[motions.run == run, j]) for run in motions.runs])
         travel = travel[np.abs(travel) > 0]
-        if len(travel) and np.ptp(motions.q[:, j]) > LIBRARY.still_rad:
+        if len(travel) and np.ptp(motions.q[:, j]) > still_span(motions.sliding)[j]:
             forward = float(travel[travel > 0].sum() / np.abs(travel).sum())
             if min(forward, 1 - forward) < CHECK.one_way:
                 text = f"Joint {j + 1} moves one way only: its dry friction and a torque offset can't be told apart."
@@ -154,7 +155,7 @@ def _cut_off(motions: Motions, found: Rails) -> list[Notice]:
 
 def _unread(motions: Motions, at: NDArray[np.bool_]) -> list[Notice]:
     """Of channels that were not read; one that stays at its limit was, and is told as cut off."""
-    idle, notices = unread(motions.run, motions.time, motions.q, motions.effort) & ~at, []
+    idle, notices = unread(motions) & ~at, []
     for j in np.flatnonzero(idle.any(axis=0)):
         rows = np.flatnonzero(idle[:, j])
         text = (
@@ -228,7 +229,7 @@ def _coarse(motions: Motions) -> list[Notice]:
 def _no_speeds(motions: Motions) -> list[Notice]:
     if motions.dq is None:
         return []
-    moving = np.ptp(motions.q, axis=0) > LIBRARY.still_rad
+    moving = np.ptp(motions.q, axis=0) > still_span(motions.sliding)
     dead = np.flatnonzero(moving & (np.ptp(np.nan_to_num(motions.dq), axis=0) == 0))
     if not len(dead):
         return []

@@ -118,7 +118,8 @@ class LibraryRules(Constants):
     knots_of_time: int = constant(4, "of a drift", "judgement: a cubic; faster is no drift", unit="columns")
     least_warming_k: float = constant(2.0, "by which a temperature must change", "judgement: sensors' error", unit="K")
     least_running_min: float = constant(0.2, "in which friction may change", "judgement: no gear warms in less")
-    still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad or m")
+    still_rad: float = constant(0.02, "a joint that spans less stands", "judgement: servo noise", unit="rad")
+    still_m: float = constant(0.002, "the same of one that slides", "judgement: servo noise", unit="m")
     powers: tuple[float, ...] = constant(
         (1 / 3, 1 / 2, 2 / 3, 3 / 2, 2.0, 3.0),
         "of speed to which friction may grow",

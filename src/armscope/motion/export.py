@@ -22,14 +22,23 @@ from armscope.motion.model.file import save_motion_model
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.mujoco_model import mujoco_model
 from armscope.motion.pipeline import MotionDiagnosis
-from armscope.motion.simulated_bodies import as_comment, bodies, joint_numbers, not_in_a_file, stated_payloads
+from armscope.motion.simulated_bodies import (
+    as_comment,
+    bodies,
+    joint_numbers,
+    not_in_a_file,
+    one_to_one,
+    stated_payloads,
+)
 from armscope.motion.verdict import write_motion_verdict
 from armscope.robot.dynamics import PARAMETERS, UNITS, MovingArm
 from armscope.robot.model import TIP
+from armscope.robot.urdf import held_joints
 from armscope.robot.urdf_file import root_of
 from armscope.robot.urdf_writing import (
     WrittenJoint,
     chain_urdf,
+    fix_joint,
     keep_meshes,
     set_inertial,
     urdf_text,
@@ -145,10 +154,9 @@ def parameter_table(model: MotionModel, selected: SelectedCauses, factor: Array)
 
 def _fresh(arm: MovingArm) -> ET.Element:
     """The chain of a D-H arm."""
-    limits = arm.description.joint_limits_deg
-    within = None if limits is None or len(limits) != arm.n_links else np.radians(limits)
-    one_to_one = np.array_equal(arm.actuation, np.eye(arm.n_links))
-    drives = (what_drives_can(arm.description) if one_to_one else []) or [{}] * arm.n_links
+    limits = arm.description.joint_limits_deg if one_to_one(arm) else None  # they are the motors'
+    within = None if limits is None else np.sort(np.radians(limits) * np.diag(arm.actuation)[:, None], axis=1)
+    drives = (what_drives_can(arm.description) if one_to_one(arm) else []) or [{}] * arm.n_links
     joints = []
     for n, name in enumerate(arm.joint_names):
         placement, limit = arm.model.jointPlacements[n + 1].homogeneous, None if within is None else tuple(within[n])
@@ -158,10 +166,17 @@ def _fresh(arm: MovingArm) -> ET.Element:
 
 
 def _kept(source: Path, arm: MovingArm, folder: Path) -> ET.Element:
-    """The arm's own URDF, without the inertias of what is fixed to a moving link: they are part of that link's."""
+    """The arm's own URDF: joints outside its chain fixed where they are held, what they carry part of its moving link.
+
+    A gripper's fingers without mass that slide freely could not be simulated.
+    """
     robot = root_of(str(source))
     keep_meshes(robot, source, folder)
     moving = set(arm.joint_names)
+    held = held_joints(arm.description)
+    for each in robot.findall("joint"):
+        if each.get("name") in held:
+            fix_joint(each, held[str(each.get("name"))])
     children = {child.get("link"): joint for joint in robot.findall("joint") for child in joint.findall("child")}
     for link in robot.findall("link"):
         joint = children.get(link.get("name"))

@@ -8,13 +8,10 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Progress, unheard
-from armscope.motion.check import COARSE, CUT_OFF, check_motions, refuse_few, runs_in_motion, too_short
-from armscope.motion.constants import LIBRARY
+from armscope.motion.check import COARSE, CUT_OFF, check_motions, refuse_few, runs_in_motion
 from armscope.motion.fitting.cutoff import chosen_cutoff
 from armscope.motion.fitting.friction_turns import how_friction_turns, plain_rows
-from armscope.motion.fitting.gains import torque_of
 from armscope.motion.fitting.pauses import pauses_in_words
 from armscope.motion.fitting.ringing import ringing
 from armscope.motion.fitting.rows import MotionRows, build_rows
@@ -28,15 +25,16 @@ from armscope.motion.library.placing import place_causes
 from armscope.motion.library.recorded_ranges import seen_in
 from armscope.motion.links.judgement import JudgedTwist, judged_twists, with_links
 from armscope.motion.model.fitted import MotionModel, fitted_model
-from armscope.motion.samples.constants import FILTER
+from armscope.motion.parting import parted_in_two, refuse_unknown
 from armscope.motion.samples.preparation import Preparation
-from armscope.motion.samples.rails import rails
 from armscope.motion.samples.spikes import without_spikes
-from armscope.motion.samples.timing import Stretch, gaps, mended, stretches
+from armscope.motion.samples.standing import still_span
+from armscope.motion.samples.timing import gaps, mended
 from armscope.motion.samples.turns import counted_on
-from armscope.motion.samples.unread import unread
+from armscope.motion.summary.badly_met import badly_met
 from armscope.motion.summary.entering import Entered, as_entered
 from armscope.motion.summary.harming import without_what_harms
+from armscope.motion.summary.headline import headline, masses_lead
 from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.holding_out import (
     Fold,
@@ -54,9 +52,7 @@ from armscope.motion.summary.judgement import (
     apart_where_useless,
     doubted_beside,
     found_causes,
-    headline,
     joint_backgrounds,
-    masses_lead,
     unexplained,
 )
 from armscope.motion.summary.lasting import told_of_lasting
@@ -127,13 +123,15 @@ class MotionDiagnosis:
         """What model.yaml holds."""
         layout = self.selected.rows.layout
         numbers = [effect.candidate for effect in self.selected.best.chosen]
-        return fitted_model(
+        q = self.selected.rows.q
+        fitted = fitted_model(
             layout,
             self.selected.told,
             [(n, values_of(self.selected, n), covariance_of(self.selected, n, self.sure.factor)) for n in numbers],
             self.how,
             tuple(cause for twist in self.twists for cause in twist.fitted),
         )
+        return replace(fitted, positions=np.column_stack([q.min(axis=0), q.max(axis=0)]))
 
 
 def diagnose_motion(
@@ -158,30 +156,31 @@ def diagnose_motion(
     """
     settings = settings or MotionSettings()
     motions, alone = without_spikes(motions)
-    motions, turns = counted_on(motions)
+    motions, turns = counted_on(_without_unknown_temperature(motions))
     motions, standing = runs_in_motion(motions)
-    _refuse_unknown(settings.held_out, motions)
+    refuse_unknown(settings.held_out, motions)
     progress("laying samples on an even grid", 0.0)
     notices = [Notice("table", note) for note in motions.notes] + alone + turns + standing + check_motions(arm, motions)
     motions, told = mended(motions)
-    train, test = _parted(arm, motions, settings.held_out)
+    parted = parted_in_two(arm, motions, settings.held_out)
+    train, test = parted.train, parted.test
     how, first = chosen_cutoff(arm, train, settings.cutoff)
     plain = plain_rows(arm, train, how)
     turning = how_friction_turns(plain, how)
-    seen = replace(seen_in(arm, train, LIBRARY.still_rad), stand=ringing(plain, how))
+    seen = replace(seen_in(arm, train, still_span(arm.sliding)), stand=ringing(plain, how))
     seen = replace(seen, waves=first.waves, motion_hz=how.motion_hz, width_of_sides=turning.wide(arm))
     layout = TorqueLayout(arm, tuple(place_causes(seen)), motions.kind == "current", seen.width_of_sides, turning.order)
     refuse_few(layout, sum(how.rows_of(len(stretch)) for stretch in train), motions.source)
     runs = tuple(dict.fromkeys(stretch.run for stretch in train))
     weighing = lambda text, share: progress(text, 0.1 + 0.6 * share)
     selected = select_causes(layout, train, how, runs, weighing, replace(first.model, turning=turning.late))
-    selected = _that_stands(selected, with_changes(selected, seen, train, how, _carried(motions), weighing), how.rate)
-    selected, sure = told_links(selected, _carried(motions))
+    selected = _that_stands(selected, with_changes(selected, seen, train, how, weighing), how.rate)
+    selected, sure = told_links(selected)
     progress("measuring on motion that took no part", 0.75)
     apart = build_rows(selected.rows.layout, test, how, model_of(selected)) if test else None
     parts, what = held_out_parts(selected, apart, settings.held_out)
-    selected, sure = without_what_harms(selected, sure, parts, _carried(motions))
-    notices += [*told, *gaps(motions), *_of_the_selection(selected)]
+    selected, sure = without_what_harms(selected, sure, parts)
+    notices += [*told, *gaps(motions), *parted.notices, *_of_the_selection(selected)]
     verdict, held, entered = _judged(selected, sure, parts, what)
     twists = judged_twists(selected, seen, train, how)
     verdict = with_links(verdict, [twist.side for twist in twists])
@@ -204,12 +203,10 @@ def _of_the_selection(selected: SelectedCauses) -> list[Notice]:
     return [*little_excited(selected), *of_gains, *load_or_link(selected)]
 
 
-def _refuse_unknown(runs: Sequence[str], motions: Motions) -> None:
-    """Refuse to hold out a run that is not in the table, or in which nothing moves."""
-    for run in runs:
-        if run not in motions.runs:
-            rule = f"{motions.source} has no such run in motion"
-            raise InputError("--held-out", "", run, rule, nearest(run, motions.runs))
+def _without_unknown_temperature(motions: Motions) -> Motions:
+    """Without temperatures where a run has none: what follows them could not be formed there."""
+    unknown = motions.temperature is not None and np.isnan(motions.temperature).any()
+    return replace(motions, temperature=None) if unknown else motions
 
 
 def _that_stands(without: SelectedCauses, wider: SelectedCauses, rate: float) -> SelectedCauses:
@@ -232,33 +229,6 @@ def _as_far_as_recorded(verdict: MotionVerdict, notices: Sequence[Notice]) -> st
     return " ".join([told, *(notice.text for notice in notices if notice.kind in kinds)])
 
 
-def _carried(motions: Motions) -> dict[str, float]:
-    """Stated payload of each run, kg; none where none is stated."""
-    if motions.payload is None:
-        return {}
-    return {str(run): float(np.nan_to_num(np.mean(motions.payload[motions.run == run]))) for run in motions.runs}
-
-
-def _parted(arm: MovingArm, motions: Motions, held_out: Sequence[str]) -> tuple[list[Stretch], list[Stretch]]:
-    """Stretches to fit, and stretches that take no part; effort as torque."""
-    if (short := too_short(motions)) is not None:
-        raise short
-    train: list[Stretch] = []
-    test: list[Stretch] = []
-    idle = unread(motions.run, motions.time, motions.q, motions.effort) | rails(motions, arm).at
-    for stretch in stretches(motions):
-        if len(stretch) > FILTER.shortest_s * stretch.rate:
-            own = motions.run == stretch.run
-            at = np.searchsorted(motions.time[own], stretch.time).clip(0, np.count_nonzero(own) - 1)
-            effort = torque_of(arm, stretch.effort, motions.kind)
-            as_torque = replace(stretch, effort=effort, cut=idle[own][at])
-            (test if stretch.run in held_out else train).append(as_torque)
-    if not train and test:
-        rule = "a run at least takes part in the fit"
-        raise InputError("--held-out", "", ", ".join(held_out), rule, "Hold out fewer.")
-    return train, test
-
-
 def _judged(
     selected: SelectedCauses, sure: Sureness, parts: list[Fold], what: str
 ) -> tuple[MotionVerdict, tuple[HeldOutTorque, ...], tuple[Entered, ...]]:
@@ -272,9 +242,12 @@ def _judged(
     order, found = [number for number, _ in numbered], [cause for _, cause in numbered]
     steps = waterfall(selected, parts, order, [cause.title for cause in found])
     lasting = left_over(selected)
-    left = unexplained(found, lasting)
     off = share_of_masses(selected, selected.best)
     errors = HeldOutErrors(held_out.background, held_out.model, steps[-1].held_out, off, by_masses)
+    if parts and parts[0].rows is not selected.rows:  # runs that the user chose
+        badly = badly_met(selected, held, by_run, steps[-1].fitted)
+        errors = replace(errors, fitted=steps[-1].fitted, badly=tuple(badly.items()))
+    left = unexplained(found, lasting, errors)
     found = apart_where_useless(doubted_beside(found, lasting), errors)
     answer, mismatch = answer_of(found, left, errors)
     likeliest = likeliest_in_words(selected) if errors.only_unnamed or masses_lead(found, errors) else ""

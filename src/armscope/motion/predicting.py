@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from armscope.motion.library.warmth import is_while_running
 from armscope.motion.model.file import load_motion_model
 from armscope.motion.model.fitted import MotionModel, predicted_links, predicted_torque
 from armscope.motion.samples.timing import Stretch, mended_rows, stretches
-from armscope.motion.samples.turns import counted_on
+from armscope.motion.samples.turns import counted_on, laid_about
 from armscope.recordings.motions import Motions, read_motions, torque_columns
 
 WARM = ("warm speed", "warm side", "curve over temperature")
@@ -58,10 +58,15 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
     """
     refuse_other_joints(fitted.arm, rows)
     rows, turns = counted_on(rows)
+    rows, about = laid_about(rows, fitted.positions)
     follows = {getattr(cause.placed.columns, "kind", "") for cause in fitted.causes}
     if rows.temperature is None and follows & set(WARM):
         rule = "a cause in the model follows it, so it must be known in every row"
         raise InputError(rows.source, "line 1", "no column temperature_c", rule, "Add it to the table.")
+    if rows.temperature is not None and follows & set(WARM) and np.isnan(rows.temperature).any():
+        run = rows.run[np.isnan(rows.temperature).any(axis=1)][0]
+        rule = "a cause in the model follows it, so it must be known in every run"
+        raise InputError(rows.source, f"run {run}", "no temperature in any row", rule, "State it once at least.")
     fitted, left_out = of_other_motion(fitted)
     torque, notes = torque_of_rows(fitted, rows)
     table = (
@@ -75,7 +80,8 @@ def torque_table(fitted: MotionModel, rows: Motions) -> tuple[pd.DataFrame, list
             table[f"q{j + 1}_link_{'m' if fitted.arm.sliding[j] else 'rad'}"] = links[:, j]
     if fitted.kind == "current":
         table[[f"current{j + 1}_a" for j in range(fitted.arm.n_motors)]] = torque / fitted.arm.gains
-    return table, [*(notice.text for notice in turns), *notes, *left_out]
+    left_out += of_single_runs(fitted, rows.runs)
+    return table, [*rows.notes, *(notice.text for notice in (*turns, *about)), *notes, *left_out]
 
 
 def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
@@ -86,16 +92,42 @@ def of_other_motion(model: MotionModel) -> tuple[MotionModel, list[str]]:
     changes = [cause for cause in model.causes if cause.placed.cause in CHANGES]
     warming = [cause for cause in model.causes if is_while_running(cause.placed.columns)]
     kept = tuple(cause for cause in model.causes if cause not in changes)
-    notes = [
-        f"Not in this prediction: {cause.placed} ({spells(cause.placed.scanned)}), which came and went while the "
-        "model's own motion was recorded. State what is carried as payload_kg in every row."
-        for cause in changes
-    ] + [
-        f"Taken as at the end of the model's own motion: {cause.placed}, which changed meanwhile. How warm "
-        "the arm is here nobody knows: record temperature_c."
-        for cause in warming
-    ]
+    notes = (
+        [
+            f"Not in this prediction: {cause.placed} ({spells(cause.placed.scanned)}), which came and went while the "
+            "model's own motion was recorded. State what is carried as payload_kg in every row."
+            for cause in changes
+        ]
+        + [
+            f"Taken as at the end of the model's own motion: {cause.placed}, which changed meanwhile. How warm "
+            "the arm is here nobody knows: record temperature_c."
+            for cause in warming
+        ]
+        + [
+            f"Taken to come back in each run: {cause.placed}, over the time since the model's own motion began."
+            for cause in kept
+            if getattr(cause.placed.columns, "kind", "") == "curve over time"
+        ]
+    )
     return replace(model, causes=kept), notes
+
+
+def of_single_runs(model: MotionModel, runs: Sequence[str]) -> list[str]:
+    """A note on each load that one run of the model's own motion had: a run of that name has it here, no other."""
+    notes = []
+    for cause in model.causes:
+        own, there = ", ".join(cause.placed.runs), ", ".join(run for run in cause.placed.runs if run in runs)
+        if there:
+            notes.append(
+                f"Run {there} is taken to have what the model's own run of that name had: {cause.placed}. Where it is "
+                "another motion, give it another name, and state what is carried as payload_kg."
+            )
+        elif own:
+            notes.append(
+                f"Not in this prediction: {cause.placed}, of run {own} of the model's own motion alone. State what is "
+                "carried as payload_kg."
+            )
+    return notes
 
 
 def torque_of_rows(model: MotionModel, motions: Motions) -> tuple[Array, list[str]]:

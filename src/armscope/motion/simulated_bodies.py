@@ -11,7 +11,7 @@ from armscope.core.types import Array
 from armscope.motion.constants import EXPORT
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.model.fitted import MotionModel
-from armscope.robot.dynamics import PARAMETERS
+from armscope.robot.dynamics import PARAMETERS, MovingArm
 
 
 def stated_payloads(selected: SelectedCauses) -> tuple[float, ...]:
@@ -54,12 +54,17 @@ def _throughout(payloads: Sequence[float]) -> tuple[float, list[str]]:
     return heaviest, [f"{told}; leave that column out where this file is the arm"]
 
 
+def one_to_one(arm: MovingArm) -> bool:
+    """Whether each motor turns its own joint alone, as far as itself, either way: its friction is the joint's."""
+    return np.array_equal(np.abs(arm.actuation), np.eye(arm.n_links))
+
+
 def joint_numbers(model: MotionModel) -> tuple[Array, list[str]]:
     """(n, 3) dry friction, damping and armature of each joint, none of them negative, and what was left out.
 
     Where motors and joints are not one to one, friction belongs to motors and has no place at a joint: zeros.
     """
-    if not np.array_equal(model.arm.actuation, np.eye(model.arm.n_links)):
+    if not one_to_one(model.arm):
         return np.zeros((model.arm.n_links, 3)), ["friction and rotors are those of motors, which turn several joints"]
     numbers, notes = model.joints[:, 1:4], []
     for joint, name in np.argwhere(numbers < 0):

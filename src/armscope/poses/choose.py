@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -43,13 +43,15 @@ class Choice:
 
     @property
     def table(self) -> Recordings:
-        """The chosen poses, in the order to measure."""
-        return subset(self.candidates.table, self.rows)
+        """The chosen poses, in the order to measure, each come to from the side of the pose before it."""
+        table = subset(self.candidates.table, self.rows)
+        moves = np.diff(table.motor_angles, axis=0, prepend=table.motor_angles[:1])
+        return replace(table, approach=np.sign(moves))
 
     @property
     def indices(self) -> dict[str, float]:
         """O1 to O5 of the choice."""
-        return all_indices(self.jacobian[self.rows])
+        return all_indices(self.targets.jacobian(self.table))
 
 
 # so many parameters: each is a choice of its own that a user makes by name, and nearly all have a default

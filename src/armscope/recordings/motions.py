@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from armscope.core.inputs import InputError, nearest
 from armscope.core.types import Array, Indices
+from armscope.recordings.blank_cells import payload_held, temperature_between
 from armscope.recordings.column_reader import ColumnReader
 from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.first_lines import DRIVE_COLUMN
@@ -38,7 +39,7 @@ class Motions:
         sliding: (m,) whether a position is a length.
         run: (N,) text; "" where the table has no such column.
         dq, ddq, command: (N, m) recorded velocity, acceleration, commanded position; each or None.
-        payload: (N,) kg; temperature: (N, m) deg C; each or None.
+        payload: (N,) kg; temperature: (N, m) deg C; each or None; NaN only in runs that have none at all.
         link: (N, m) positions of the links behind their drives, rad or m; NaN where none is recorded; or None.
         notes: what a user should know about how the table was read.
         source: the file's name, for messages.
@@ -131,25 +132,33 @@ def as_motions(
     sliding = np.array([unit == "m" for unit in units])
     kind, effort = reader.effort(sliding, measured)
     unknown = [name for name in table.columns if name not in PLAIN and not _is_of_motors(name, count)]
-    notes = (f"columns not used: {', '.join(unknown)}",) if unknown else ()
+    notes = [f"columns not used: {', '.join(unknown)}"] if unknown else []
     temperature = reader.optional(["temperature_c"], 1.0, squeeze=True)
     own = reader.optional([f"temperature{j}_c" for j in range(1, count + 1)], 1.0)
     if own is None and temperature is not None:
         own = np.repeat(temperature[:, None], count, axis=1)
+    time, run = reader.required("time_s"), reader.text("run")
+    payload = reader.optional(["payload_kg"], 1.0, squeeze=True)
+    if payload is not None:
+        payload, told = payload_held(payload, run)
+        notes += told
+    if own is not None:
+        own, told = temperature_between(own, time, run)
+        notes += told
     return Motions(
-        time=reader.required("time_s"),
+        time=time,
         q=q,
         effort=effort,
         kind=kind,
         sliding=sliding,
-        run=reader.text("run"),
+        run=run,
         dq=reader.per_motor(units, "dq{}_{}_s"),
         ddq=reader.per_motor(units, "ddq{}_{}_s2"),
         command=reader.per_motor(units, "q{}_cmd_{}"),
-        payload=reader.optional(["payload_kg"], 1.0, squeeze=True),
+        payload=payload,
         temperature=own,
         link=reader.links(units),
-        notes=notes,
+        notes=tuple(notes),
         source=str(source),
     )
 

@@ -48,6 +48,13 @@ class Bodies:
             found[rows] = self.arm.torques(q[rows], dq[rows], ddq[rows], inertial)
         return found
 
+    def held(self, q: Array, gravity: Array) -> Array:
+        """(N, m) N m that hold them at rest at motor positions (N, m), under a gravity (3,), m/s^2."""
+        found = np.empty(q.shape)
+        for rows, inertial in self._loads(len(q)):
+            found[rows] = self.arm.gravity_torques(q[rows], gravity, inertial)
+        return found
+
     def slopes(self, q: Array, dq: Array, ddq: Array) -> tuple[Array, Array, Array]:
         """How that changes with the motion.
 

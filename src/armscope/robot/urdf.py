@@ -95,6 +95,16 @@ def cut(description: RobotDescription, full: pin.Model) -> SerialPart:
     return SerialPart([joint for joint in range(1, full.njoints) if joint not in left], configuration, frame.name)
 
 
+def held_joints(description: RobotDescription) -> dict[str, Array]:
+    """(4, 4) by name: how far each joint that is not of the chain has moved from its origin, where it is held."""
+    full = read_urdf(str(description.urdf))
+    locked, configuration, _ = cut(description, full)
+    data = full.createData()
+    pin.forwardKinematics(full, data, configuration)
+    moved = {joint: full.jointPlacements[joint].actInv(data.liMi[joint]) for joint in locked}
+    return {str(full.names[joint]): np.asarray(placement.homogeneous) for joint, placement in moved.items()}
+
+
 def frame_named(model: pin.Model, name: str) -> pin.Frame:
     """The frame of a name that is there; the link's where a joint is called so, too."""
     there = [frame for frame in model.frames if frame.name == name]

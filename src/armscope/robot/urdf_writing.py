@@ -104,6 +104,17 @@ def _add_joint(robot: ET.Element, name: str, kind: str, links: tuple[str, str], 
     return joint
 
 
+def fix_joint(joint: ET.Element, moved: Array) -> None:
+    """Let a joint (changed) stay where it has moved to, (4, 4), from its origin."""
+    origin = joint.find("origin")
+    placement = moved if origin is None else placement_of(origin) @ moved
+    joint.set("type", "fixed")
+    for element in list(joint):
+        if element.tag not in ("parent", "child"):
+            joint.remove(element)
+    ET.SubElement(joint, "origin", origin_of(placement))
+
+
 def set_inertial(link: ET.Element, mass: float, centre: Array, inertia: Array) -> None:
     """Give a link its mass.
 

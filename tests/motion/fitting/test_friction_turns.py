@@ -20,7 +20,7 @@ from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.predicting import torque_table
 from armscope.motion.samples.timing import stretches
 from armscope.recordings.motions import Motions
-from tests.motion.moving import COULOMB, Plant, clinging, moved, presliding, robot
+from tests.motion.moving import COULOMB, Plant, carrying, clinging, moved, presliding, robot
 
 WIDE, JOINT, RATE = 0.04, 1, 200.0
 
@@ -80,9 +80,35 @@ def test_a_wide_change_of_sides_is_seen_at_its_joint_alone() -> None:
     np.testing.assert_array_equal(found[others], sharp_width(robot())[others])
 
 
+@pytest.mark.parametrize(
+    ("width", "law"), [(0.008, None), (0.015, None), (0.028, None), (0.008, falling), (0.015, falling)]
+)
+def test_a_change_of_sides_has_its_own_width_whatever_law_is_beside_it(width: float, law: Plant | None) -> None:
+    """Of widths twice as large each, the nearest left what has the shape of a law; with a law, none was seen."""
+
+    def turning_within(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+        extra = np.zeros_like(q) if law is None else law(q, dq, ddq, rigid) * np.abs(np.tanh(dq / width))
+        extra[:, JOINT] += COULOMB[JOINT] * (np.tanh(dq[:, JOINT] / width) - np.sign(dq[:, JOINT]))
+        return extra
+
+    found = widths(turning_within)
+    assert found is not None
+    assert found[JOINT] == pytest.approx(width, rel=0.2)
+
+
 @pytest.mark.parametrize("plant", [None, falling, bending], ids=["none", "falling", "bending"])
 def test_nothing_else_of_friction_over_speed_is_a_wide_change(plant: Plant | None) -> None:
     assert widths(plant) is None
+
+
+def test_a_load_that_one_run_has_and_nobody_stated_changes_nothing_of_how_friction_turns() -> None:
+    """It was the largest of all that is left, and any width that follows it a little was the best."""
+    load = carrying(3, 25.0).effort - carrying(3, 0.0).effort
+    for plant in (None, wide):
+        motions = moved(robot(), 3, plant, runs=3)
+        without, loaded = turning(motions), turning(replace(motions, effort=motions.effort + load))
+        np.testing.assert_array_equal(loaded.width, without.width)
+        np.testing.assert_allclose(loaded.late, without.late, atol=1e-3)
 
 
 @pytest.mark.parametrize(("order", "hz"), [(2, 25.0), (1, 15.0)])

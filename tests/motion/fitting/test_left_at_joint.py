@@ -9,7 +9,14 @@ from armscope.core.types import Array
 from armscope.motion.fitting.left_at_joint import LeftAtJoint, follows_angle
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.pipeline import MotionSettings, diagnose_motion
+from armscope.robot.description import RobotDescription
+from armscope.robot.dynamics import build_moving_arm
 from tests.motion.moving import moved, robot
+
+ONE = {
+    "name": "one joint", "gravity_m_s2": [0, -9.81, 0], "dh": {"joints": [{"a_mm": 500, "alpha_deg": 0, "d_mm": 0}]},
+    "links": [{"mass_kg": 10, "com_mm": [-250, 0, 0], "inertia_kg_m2": [0.1, 0.2, 0.2, 0, 0, 0]}],
+}  # fmt: skip
 
 
 def pulled(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
@@ -55,3 +62,12 @@ def test_what_a_rotor_asks_for_is_said_by_its_column_already(left: LeftAtJoint, 
     for values, least, most in ((column, 0.0, 0.02), (cable, 0.3, 1.0)):
         absorbed = left.absorbed @ values
         assert least < 1 - float(absorbed @ absorbed) / float(values @ values) < most
+
+
+def test_an_arm_of_one_joint_has_no_others_and_its_spring_is_told() -> None:
+    """Of no joint's sums there was no total."""
+    arm = build_moving_arm(RobotDescription.model_validate(ONE))
+    motions = moved(arm, 3, lambda q, dq, ddq, rigid: 30 * (q - 0.2))
+    (spring,) = diagnose_motion(arm, motions, MotionSettings(cutoff=15.0)).verdict.effects
+    assert (spring.effect, spring.location) == ("gravity_balance", "joint 1")
+    assert spring.parameters[0].value == pytest.approx(30.0, rel=0.03)

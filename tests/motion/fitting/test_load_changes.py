@@ -109,4 +109,4 @@ def test_a_selection_stays_as_it_is_where_no_change_gets_a_name(
     selected = select_causes(layout, laid, how, seen.runs, unheard)
     assert load_changes(selected, how.cutoff) == []
     monkeypatch.setattr("armscope.motion.fitting.with_changes.load_changes", lambda *_: list(found))
-    assert with_changes(selected, seen, laid, how, {}, unheard) is selected
+    assert with_changes(selected, seen, laid, how, unheard) is selected

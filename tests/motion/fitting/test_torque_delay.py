@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 
 from armscope.core.types import Array
-from armscope.motion.fitting.torque_delay import Between, lag_step
+from armscope.motion.fitting.model_estimate import stated_model
+from armscope.motion.fitting.rows import build_rows
+from armscope.motion.fitting.torque_delay import Between, columns_of, lag_step
+from armscope.motion.library.layout import TorqueLayout
+from armscope.motion.library.placing import place_causes
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from tests.motion.moving import COULOMB, ROTOR, VISCOUS, moved, robot
+from armscope.motion.samples.preparation import preparation
+from armscope.motion.samples.timing import stretches
+from tests.motion.moving import COULOMB, ROTOR, VISCOUS, carrying, moved, robot
+from tests.motion.test_parts import seen
 
 LATE_S, JOINT, RATE = 0.02, 2, 200.0
 
@@ -79,3 +86,15 @@ def test_other_names_ask_for_other_steps() -> None:
     between.next(frozenset({1}), 1, 0.01, 0.03)
     between.next(frozenset({1}), 1, 0.03, 0.01)
     assert between.next(frozenset({1, 2}), 1, 0.02, 0.05) == 0.05
+
+
+def test_the_columns_of_a_joint_are_what_its_rows_are_modelled_by() -> None:
+    """Of a load that one run has, too: it was put into the others."""
+    motions, arm = carrying(3, 2.0), robot()
+    layout = TorqueLayout(arm, tuple(place_causes(seen(motions))), False)
+    assert layout.differs_by_run
+    rows = build_rows(layout, list(stretches(motions)), preparation(200.0, 10.0, "test"), stated_model(arm))
+    coefficients = np.random.default_rng(1).normal(size=layout.width)
+    for joint, modelled in enumerate(rows.modelled(coefficients).T):
+        whole = columns_of(rows, joint, np.arange(layout.width)) @ coefficients
+        np.testing.assert_allclose(whole, modelled, rtol=1e-4, atol=1e-4 * float(np.abs(modelled).max()))

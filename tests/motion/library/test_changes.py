@@ -34,7 +34,7 @@ def moment(seen: Seen, run: str) -> Moment:
     time = np.linspace(0, 15, 60)
     q = np.column_stack([np.sin((j + 1) * time / 3) for j in range(3)])
     signals = Signals(run, 0, time, q, q, q, q[:0], None, None, np.arange(60))
-    return Moment(signals, q, q, None, 4.0, Bodies(seen.arm, seen.arm.inertial, None))
+    return Moment(signals, q, q, 4.0, Bodies(seen.arm, seen.arm.inertial, None))
 
 
 def test_a_load_is_placed_as_there_and_as_gone_and_beside_it_what_jumps() -> None:

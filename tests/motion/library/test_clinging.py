@@ -35,7 +35,7 @@ def test_noise_of_positions_moves_nothing_that_clings_and_friction_stays_sharp()
     )
     quiet = 8 * np.sin(2 * np.pi * 0.3 * time) + dry.of_joint(signals, 0)
     noisy = quiet + RNG.normal(0, 0.5, count)
-    calm, loud = (Moment(signals, zero, each[:, None], None, rate, dry=dry) for each in (quiet, noisy))
+    calm, loud = (Moment(signals, zero, each[:, None], rate, dry=dry) for each in (quiet, noisy))
 
     inside = slice(250, -250)
     followed = smooth_torque(loud, 0, 4.0)[inside]

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction, own_columns, passed
-from armscope.motion.samples.preparation import Signals, without_lag
+from armscope.motion.samples.low_pass import without_lag
+from armscope.motion.samples.preparation import Signals
 from tests.motion.moving import robot
 
 RATE, LATE_S, DRY, VISCOUS, HZ = 100.0, 0.0337, 5.0, 2.0, 10.0

@@ -38,7 +38,7 @@ def test_a_loads_torque_is_what_an_arm_that_carries_it_asks_for(n: int) -> None:
     at = PLACE + np.array([own.rows[-1][0], 0, d])  # the joint's frame stands before a and d of the row
     time = np.linspace(0, 16, len(added))
     signals = Signals("", 0, time, *motion, motion[0], None, None, np.arange(len(added)))
-    moment = Moment(signals, motion[0], motion[0], None, 1.0, Bodies(arm, arm.inertial, None))
+    moment = Moment(signals, motion[0], motion[0], 1.0, Bodies(arm, arm.inertial, None))
     values = MASS * np.r_[1.0, at]
     law = Law("load for a while", tuple(range(n)), (0.0, *values.tolist(), 15.0, 0.0, 4.0, 11.0))
     while_there = (time >= 4) & (time < 11)

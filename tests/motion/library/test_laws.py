@@ -6,7 +6,8 @@ from scipy.interpolate import make_interp_spline
 
 from armscope.motion.library.causes import Moment
 from armscope.motion.library.laws import Law
-from armscope.motion.samples.preparation import Signals, without_lag
+from armscope.motion.samples.low_pass import without_lag
+from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from tests.motion.moving import path, robot
 
@@ -14,7 +15,7 @@ RNG = np.random.default_rng(3)
 Q, DQ, DDQ, RIGID, PREDICTED = RNG.normal(size=(5, 50, 2))
 TIME = np.linspace(0, 1, 50)
 SIGNALS = Signals("", 0, TIME, Q, DQ, DDQ, RIGID, None, 20 + Q, np.arange(50))
-MOMENT = Moment(SIGNALS, RIGID, PREDICTED, None, 49.0)
+MOMENT = Moment(SIGNALS, RIGID, PREDICTED, 49.0)
 
 
 def test_friction_laws_are_their_equations() -> None:
@@ -95,7 +96,7 @@ def behind(compliance: float, noise: float = 0.0) -> tuple[Moment, np.ndarray]:
         motors = [read(time, order) for order in range(3)]
     rigid = bodies.torques(*motors)
     signals = Signals("", 0, time, *motors, rigid, None, None, np.arange(len(time)))
-    return Moment(signals, rigid, rigid, None, 200.0, bodies), torque - rigid
+    return Moment(signals, rigid, rigid, 200.0, bodies), torque - rigid
 
 
 @pytest.mark.parametrize(("numbers", "off"), [((10.0,), 0.04), ((10.0, 5e-4), 2e-3)], ids=["slope", "exact"])
@@ -135,7 +136,7 @@ def test_a_link_that_swings_more_slowly_than_positions_are_noisy_is_where_its_mo
         values[:, joint] += lag(time, order) + 1e-5 * faster**order * np.sin(faster * time + order * np.pi / 2)
     signals = Signals("", 0, time, *motor, torque, None, None, np.arange(len(time)))
     rigid = bodies.torques(*motor)
-    moment = Moment(signals, rigid, rigid, None, 200.0, bodies)
+    moment = Moment(signals, rigid, rigid, 200.0, bodies)
     found = rigid + compliance * Law("behind a drive", (1, 0, 2), (15.0, compliance))(moment)[:, [1, 0, 2], 0]
     smooth = without_lag(found - torque, 2.0, 200.0, 100)[200:-200]
     whole = without_lag(rigid - torque, 2.0, 200.0, 100)[200:-200]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -23,6 +25,13 @@ def test_what_turns_with_two_parallel_joints_is_the_next_link_and_no_cause_of_it
     found = [(each.location, each.variant) for each in placed if each.cause.name == "coupled_inertia"]
     assert {variant for place, variant in found if place == "joint 2 from joint 1"} == {"", "difference"}
     assert {variant for place, variant in found if place == "joint 3 from joint 2"} == left
+
+
+def test_what_two_slides_have_between_them_is_a_mass() -> None:
+    arm = robot()
+    seen = replace(seen_in(arm, list(stretches(moved(arm, 1))), 0.02), arm=replace(arm, sliding=np.full(3, True)))
+    units = {each.parameters for each in place_causes(seen) if each.cause.name == "coupled_inertia"}
+    assert units == {(("inertia", "kg"),)}
 
 
 @pytest.mark.parametrize(("gravity", "says"), [([0.0, 0.0, -9.81], False), ([0.0, -9.81, 0.0], True)])

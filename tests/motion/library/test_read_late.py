@@ -16,7 +16,7 @@ RATE = 500.0
 TIME = np.arange(2000) / RATE
 TORQUE = np.column_stack([np.sin(2 * np.pi * 0.5 * TIME), np.cos(2 * np.pi * 0.8 * TIME), TIME**2])
 SIGNALS = Signals("", 0, TIME, TORQUE, TORQUE, TORQUE, TORQUE, None, TORQUE, np.arange(len(TIME)))
-MOMENT = Moment(SIGNALS, TORQUE, TORQUE, None, RATE)
+MOMENT = Moment(SIGNALS, TORQUE, TORQUE, RATE)
 
 
 def test_a_delay_of_several_joints_shifts_each() -> None:
@@ -44,6 +44,6 @@ def test_dry_friction_is_late_by_itself() -> None:
     arm, dry = robot(), np.array([3.0, 2.0, 1.0])
     own = DryFriction(dry, ChangeOfSides.of(arm))
     with_it = TORQUE + dry * own.turning.sides(SIGNALS)
-    both = Moment(SIGNALS, TORQUE, with_it, None, RATE, dry=own)
+    both = Moment(SIGNALS, TORQUE, with_it, RATE, dry=own)
     for delay in (0.0, 0.01):
         np.testing.assert_allclose(delayed(both, (0, 1, 2), delay), delayed(MOMENT, (0, 1, 2), delay), atol=1e-8)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.resources
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from armscope.motion.model.file_check import CauseReader
 from armscope.motion.model.fitted import MotionModel, fitted_model, predicted_torque
 from armscope.motion.model.fitted_cause import FittedCause
 from armscope.motion.pipeline import MotionDiagnosis, MotionSettings, diagnose_motion
-from armscope.motion.predicting import torque_of_rows
+from armscope.motion.predicting import torque_of_rows, torque_table
 from armscope.motion.samples.preparation import preparation
 from armscope.motion.samples.timing import stretches
 from armscope.motion.verdict import relative
@@ -79,6 +80,46 @@ def test_the_error_of_its_predictions_is_the_verdicts(found: MotionDiagnosis, tm
     assert not notes
     assert relative(measured - expected, measured) == pytest.approx(found.verdict.held_out.model, rel=1e-3)
     assert found.verdict.held_out.model < 0.7 * found.verdict.held_out.background
+
+
+def test_a_run_without_any_temperature_is_not_predicted_where_the_model_follows_it() -> None:
+    """It ended in an error of SciPy, or in cells without a number."""
+    motions = moved(robot(), 6, runs=2, seconds=3.0)
+    unknown = np.broadcast_to((motions.run == "path 2")[:, None], motions.q.shape)
+    object.__setattr__(motions, "temperature", np.where(unknown, np.nan, 25.0))
+    with pytest.raises(InputError, match="run path 2: found no temperature in any row"):
+        torque_table(every_cause(), motions)
+
+
+def test_a_load_of_one_run_is_taken_by_name_and_said() -> None:
+    """The run of that name may be another motion; under another name its load was left out without a word."""
+    motions = moved(robot(), 6, runs=2, seconds=3.0)
+    object.__setattr__(motions, "temperature", np.full(motions.q.shape, 23.0))
+    notes = torque_table(every_cause(), motions)[1]
+    assert any("Run path 1 is taken to have what the model's own run of that name had" in note for note in notes)
+    object.__setattr__(motions, "run", np.char.add(motions.run, " again"))
+    notes = torque_table(every_cause(), motions)[1]
+    assert any("of run path 1 of the model's own motion alone" in note for note in notes)
+
+
+def test_what_follows_the_time_follows_it_since_the_run_began() -> None:
+    """A clock of the day put all of a run at the end of the curve."""
+    model, motions = every_cause(), moved(robot(), 6, runs=1, seconds=6.0)
+    over_time = [each for each in model.causes if each.placed.driver == "time" and not each.placed.runs]
+    assert over_time
+    model = replace(model, causes=tuple(replace(each, values=1e3 * each.values) for each in over_time))
+    torque, notes = torque_table(model, motions)
+    later, _ = torque_table(model, motions.at_times(motions.time + 86400.0))
+    names = ["tau1_nm", "tau2_nm", "tau3_nm"]
+    np.testing.assert_allclose(later[names], torque[names], atol=0.01)
+    assert any(note.startswith("Taken to come back in each run") for note in notes)
+
+
+def test_where_the_motion_was_is_in_the_model_file(found: MotionDiagnosis, tmp_path: Path) -> None:
+    save_motion_model(tmp_path / "model.yaml", found.model)
+    again = load_motion_model(tmp_path / "model.yaml")
+    assert found.model.positions is not None
+    assert again.positions == pytest.approx(found.model.positions)
 
 
 def test_a_model_read_back_predicts_the_same_whatever_is_in_it(tmp_path: Path) -> None:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from armscope.motion.samples.ends import going_on
-from armscope.motion.samples.preparation import parts, preparation, without_lag
+from armscope.motion.samples.low_pass import without_lag
+from armscope.motion.samples.preparation import parts, preparation
 from armscope.motion.samples.timing import stretches
 from armscope.recordings.motions import as_motions
 from tests.motion.moving import path, robot, table

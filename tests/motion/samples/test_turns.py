@@ -12,7 +12,7 @@ import pytest
 from armscope.check.motions import check_moving
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.predicting import torque_table
-from armscope.motion.samples.turns import counted_on, leaps
+from armscope.motion.samples.turns import counted_on, laid_about, leaps
 from armscope.recordings.motions import Motions, as_motions
 from tests.motion.moving import moved, robot, table
 from tests.seeds import seeds
@@ -116,3 +116,20 @@ def test_a_step_across_a_gap_in_time_is_no_jump() -> None:
     parted = replace(motions, time=time, q=q)
     assert counted_on(parted)[0] is parted
     assert not leaps(parted)
+
+
+def test_other_motion_is_laid_in_the_turn_in_which_the_model_knows_the_joint(whole: pd.DataFrame) -> None:
+    """A spring that was fitted where angles were counted on pulled by 6.3 rad too much where nothing jumped."""
+    known = np.array([[-1.0, 1.0], [-3.0, 3.0], [-5.0, -1.0]])
+    motions = read(whole.assign(q3_rad=2.5 + 0.3 * np.sin(whole["time_s"]), q1_rad=0.5))
+    found, told = laid_about(motions, known)
+    np.testing.assert_allclose(found.q[:, JOINT], motions.q[:, JOINT] - 2 * np.pi)
+    np.testing.assert_array_equal(found.q[:, :JOINT], motions.q[:, :JOINT])
+    assert "q3 of run path 1 by -1, q3 of run path 2 by -1" in told[0].text
+
+
+def test_motion_that_the_model_knows_stays_where_it_is(whole: pd.DataFrame) -> None:
+    """A joint of two turns, of which this motion has the first: its middle is a turn away, and right."""
+    motions = read(whole.assign(q3_rad=0.2 * np.sin(whole["time_s"])))
+    assert laid_about(motions, np.array([[-9.0, 9.0], [-9.0, 9.0], [-0.5, 13.0]])) == (motions, [])
+    assert laid_about(motions, None) == (motions, [])

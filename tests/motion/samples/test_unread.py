@@ -10,6 +10,7 @@ import pytest
 from armscope.motion.check import check_motions
 from armscope.motion.pipeline import diagnose_motion
 from armscope.motion.samples.unread import unread
+from armscope.recordings.motions import Motions
 from tests.motion.moving import moved, robot
 
 TIME = np.arange(0, 6, 0.01)
@@ -18,10 +19,14 @@ NOISE = 0.01 * np.random.default_rng(4).normal(size=(len(TIME), 1))
 HELD = (TIME > 2) & (TIME < 4)
 
 
+def motions(run: np.ndarray, q: np.ndarray, effort: np.ndarray) -> Motions:
+    return Motions(TIME, q[:, None], effort, "torque", np.array([False]), run)
+
+
 def held(q: np.ndarray, effort: np.ndarray) -> np.ndarray:
     effort = effort.copy()
     effort[HELD] = effort[HELD][0]
-    return unread(RUN, TIME, q[:, None], effort)[:, 0]
+    return unread(motions(RUN, q, effort))[:, 0]
 
 
 def test_a_value_that_stays_while_a_joint_turns_back_was_not_read() -> None:
@@ -43,7 +48,17 @@ def test_another_run_is_no_more_of_the_same() -> None:
     run = np.where(TIME < 3, "a", "b")
     short = (TIME > 2.6) & (TIME < 3.4)
     effort[HELD & ~short] = NOISE[HELD & ~short]
-    assert not unread(run, TIME, np.sin(3 * TIME)[:, None], effort).any()
+    assert not unread(motions(run, np.sin(3 * TIME), effort)).any()
+
+
+def test_rows_of_two_runs_that_alternate_hide_nothing() -> None:
+    """A table sorted by time: no two rows of a run stood together, and nothing lasted."""
+    effort = NOISE.copy()
+    effort[HELD] = effort[HELD][0]
+    one, q = np.arange(len(TIME)), np.sin(3 * TIME)
+    both = motions(RUN, q, effort).rows(np.repeat(one, 2))
+    found = unread(replace(both, run=np.tile(["a", "b"], len(TIME))))[:, 0]
+    assert np.array_equal(found, np.repeat(HELD, 2))
 
 
 @pytest.mark.long

@@ -58,6 +58,18 @@ def test_friction_that_is_the_same_in_all_runs_is_not() -> None:
     assert found.verdict.answer == "nothing missing"
 
 
+def less_near_rest(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
+    """Friction of joint 2, the same in all runs."""
+    extra = np.zeros_like(q)
+    extra[:, JOINT] = -0.6 * COULOMB[JOINT] * np.exp(-((dq[:, JOINT] / 0.1) ** 2)) * np.sign(dq[:, JOINT])
+    return extra
+
+
+def test_a_law_that_takes_part_of_dry_friction_in_each_run_otherwise_is_the_same_friction() -> None:
+    """Dry friction alone was two thirds more in one run: the law beside it had as much less."""
+    assert not friction_by_run(diagnosed(less_near_rest).selected)
+
+
 @pytest.mark.long
 def test_friction_that_follows_the_recorded_temperature_has_its_name() -> None:
     found = diagnosed(warming(iter([0.6, 0.0, -0.6])), temperature=True)

@@ -23,7 +23,7 @@ def named() -> tuple[SelectedCauses, Sureness]:
     """One name, which helps."""
     selected = diagnose_motion(planar(), moved(planar((1.0, 1.3)), 2)).selected
     assert len(selected.best.chosen) == 1
-    return selected, sureness(selected, {})
+    return selected, sureness(selected)
 
 
 @pytest.mark.parametrize(("by", "kept"), [(0.01, False), (0.0004, True), (-0.01, True)])
@@ -31,7 +31,7 @@ def test_a_name_that_harms_goes_and_one_that_helps_or_hardly_harms_stays(
     named: tuple[SelectedCauses, Sureness], monkeypatch: pytest.MonkeyPatch, by: float, kept: bool
 ) -> None:
     monkeypatch.setattr(harming, "error_with", lambda parts, best: 0.05 + by * len(best.chosen))
-    selected, sure = without_what_harms(*named, [], {})
+    selected, sure = without_what_harms(*named, [])
     assert bool(selected.best.chosen) is kept
     assert (selected is named[0]) is kept
     assert (sure is named[1]) is kept
@@ -47,7 +47,7 @@ def test_of_several_the_worst_goes_first_and_what_helps_beside_it_stays(
     worth = {good.candidate: -0.01, bad.candidate: 0.02}
     error = lambda parts, best: 0.05 + sum(worth[each.candidate] for each in best.chosen)
     monkeypatch.setattr(harming, "error_with", error)
-    assert without_what_harms(both, sure, [], {})[0].best.candidates == {good.candidate}
+    assert without_what_harms(both, sure, [])[0].best.candidates == {good.candidate}
 
 
 def test_what_really_helps_stays_by_its_own_errors(named: tuple[SelectedCauses, Sureness]) -> None:
@@ -55,6 +55,6 @@ def test_what_really_helps_stays_by_its_own_errors(named: tuple[SelectedCauses, 
     parts = folds(selected)
     with_it, without = (error_with(parts, replace(selected.best, chosen=each)) for each in (selected.best.chosen, ()))
     assert with_it < without
-    assert without_what_harms(selected, sure, parts, {})[0] is selected
+    assert without_what_harms(selected, sure, parts)[0] is selected
     steps = waterfall(selected, parts, [selected.best.chosen[0].candidate], ["link 2"])
     assert steps[-1].held_out == with_it

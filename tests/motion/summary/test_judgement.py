@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from armscope.motion.pipeline import diagnose_motion
+from armscope.motion.summary.headline import headline
 from armscope.motion.summary.held_out_errors import HeldOutErrors
-from armscope.motion.summary.judgement import answer_of, apart_where_useless, doubted_beside, headline
+from armscope.motion.summary.judgement import answer_of, apart_where_useless, doubted_beside
 from armscope.motion.summary.lasting import LastingTorque
 from armscope.motion.verdict import FoundCause, UnexplainedTorque
 from armscope.verdict.effects import Parameter

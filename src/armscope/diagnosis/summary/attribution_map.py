@@ -90,13 +90,14 @@ def _whole_effects(model: FittedModel, recordings: Recordings) -> list[tuple[str
     """(location, driver, terms) of the library's effects that are weighed as a whole.
 
     Those elsewhere than at a joint or the base, and those with a column of their own; what follows one driver at one
-    place (a link that grows, and that bows, with temperature) together.
+    place (a link that grows, and that bows, with temperature) together. Of an effect's variants the first of the widest.
     """
     at: dict[tuple[str, str], dict[str, tuple[Term, ...]]] = {}
     for effect in effects():
         for placed in effect.place(model.arm, recordings) if isinstance(effect.atlas, str) and effect.atlas else ():
             if effect.atlas not in GENERAL or Location.of(placed.location).kind not in ("base", "joint"):
-                at.setdefault((placed.location, str(effect.atlas)), {})[effect.name] = placed.terms
+                there = at.setdefault((placed.location, str(effect.atlas)), {})
+                there[effect.name] = max(there.get(effect.name, ()), placed.terms, key=len)
     return [
         (place, name, tuple(each for terms in those.values() for each in terms)) for (place, name), those in at.items()
     ]

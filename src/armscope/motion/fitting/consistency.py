@@ -129,6 +129,33 @@ def sizes_by_block(selected: Weighed, columns: Indices, own: Array) -> tuple[Arr
     return np.array([size for size, _ in found]), np.array([error for _, error in found])
 
 
+def combination_by_block(selected: Weighed, columns: Indices, weights: Array, free: Indices) -> tuple[Array, Array]:
+    """How large a combination of numbers is in each block by itself, all others held near what all blocks say of them.
+
+    Args:
+        selected: a selection.
+        columns: (c,) that it is of.
+        weights: (c,) of their numbers, SI, in it.
+        free: columns that no prior holds.
+
+    Returns:
+        (blocks,) and their standard errors.
+    """
+    best, at, scale = selected.best, selected.best.columns, selected.problem.scale
+    precision = best.noise**2 / best.variance
+    precision[best.at(free)] = 0.0
+    own = np.zeros(len(at))
+    own[best.at(columns)] = weights / scale[columns]
+    found = []
+    for block in selected.blocks:
+        sums = block.scaled(scale)
+        G = sums.G[np.ix_(at, at)] + np.diag(precision)
+        G += 1e-12 * np.diag(np.maximum(np.diag(G), 1e-12 * np.diag(G).max()))
+        solved = np.linalg.solve(G, np.column_stack([own, sums.b[at] + precision * best.mean]))
+        found.append((own @ solved[:, 1], best.noise * np.sqrt(own @ solved[:, 0])))
+    return np.array([value for value, _ in found]), np.array([error for _, error in found])
+
+
 def factor_in(selected: Weighed, candidate: int, rows: NormalEquations) -> tuple[float, float]:
     """How large a candidate is by some rows alone.
 

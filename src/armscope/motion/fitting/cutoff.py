@@ -9,10 +9,10 @@ import numpy as np
 from scipy.signal import welch
 
 from armscope.core.types import Array
-from armscope.motion.constants import LIBRARY
 from armscope.motion.fitting.first_look import FirstLook, first_look
 from armscope.motion.samples.constants import CUTOFF, FILTER
 from armscope.motion.samples.preparation import Preparation, preparation, thinned
+from armscope.motion.samples.standing import still_span
 from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
@@ -72,9 +72,10 @@ def _chosen(
 ) -> tuple[Preparation, FirstLook]:
     rate = stretches[0].rate
     low, high = (np.array([bound(each.q, axis=0) for each in stretches]) for bound in (np.min, np.max))
-    spans = np.maximum(np.max(high, axis=0) - np.min(low, axis=0), LIBRARY.still_rad)
+    still = still_span(arm.sliding)
+    spans = np.maximum(np.max(high, axis=0) - np.min(low, axis=0), still)
     generous = _prepared(rate, min(CUTOFF.widest * rate, CUTOFF.widest_hz), "generous", highest)
-    first = first_look(arm, max(stretches, key=lambda stretch: _travelled(stretch, spans)), generous)
+    first = first_look(arm, max(stretches, key=lambda stretch: _travelled(stretch, spans, still)), generous)
     if asked is not None:
         return _prepared(rate, asked, "as asked", highest), first
     if len(first.left) < CUTOFF.window:
@@ -86,9 +87,9 @@ def _chosen(
     return _prepared(rate, float(f"{cutoff:.2g}"), source, highest), first
 
 
-def _travelled(stretch: Stretch, spans: Array) -> tuple[int, float]:
-    """How many joints move, and how far all go, in shares of their spans (m,): a long stretch may be mostly pauses."""
-    moving = np.sum(np.ptp(stretch.q, axis=0) > LIBRARY.still_rad)
+def _travelled(stretch: Stretch, spans: Array, still: Array) -> tuple[int, float]:
+    """How many joints move by more than (m,), and how far all go, in shares of their spans (m,): much may be pauses."""
+    moving = np.sum(np.ptp(stretch.q, axis=0) > still)
     return int(moving), float(np.sum(np.abs(np.diff(stretch.q, axis=0)) / spans))
 
 

@@ -50,7 +50,7 @@ class LeftAtJoint:
         unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
         self.root = np.sqrt(every * unit * selected.weights.row[among, joint])
         beyond = self.root * (rows.torque[:, joint] - rows.nominal[:, joint])[among]
-        columns = self.root[:, None] * columns_of(selected, joint, others)[among] / scale[others]
+        columns = self.root[:, None] * columns_of(selected.rows, joint, others)[among] / scale[others]
         elsewhere = weighed(rows, (each for each in chain(*selected.by_joint) if each.joint != joint), selected.weights)
         in_units = np.outer(scale[others], scale[others]) * best.noise**2
         prior = np.diag(1 / best.variance[best.at(others)])

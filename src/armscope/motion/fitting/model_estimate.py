@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.motion.library.catalogue import RIPPLE
+from armscope.motion.library.catalogue import DELAY, RIPPLE
 from armscope.motion.library.causes import Moment, PlacedCause
+from armscope.motion.library.changes_catalogue import LOAD_CHANGE
+from armscope.motion.library.laws import follows_motion
 from armscope.motion.samples.preparation import Signals
 from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
@@ -44,7 +46,7 @@ class Estimate:
     def carried(self, signals: Signals, bodies: Bodies) -> Array | float:
         """(N, m) torque of what is carried for some of a run only, of N samples."""
         none = np.zeros_like(signals.q)
-        moment = Moment(signals, none, none, None, 1 / signals.period, bodies)
+        moment = Moment(signals, none, none, 1 / signals.period, bodies)
         return sum((placed.columns_in(moment) @ values for placed, values in self.loads), 0.0)
 
     def inertial_in(self, run: str) -> Array:
@@ -70,6 +72,34 @@ class Estimate:
             assert placed.columns is not None
             predicted[:, list(placed.joints)] += placed.columns_in(moment) @ values
         return replace(moment, predicted=predicted)
+
+
+def estimate_of(
+    causes: Iterable[tuple[PlacedCause, Array]], inertial: Array, background: Array, gain: Array | None = None
+) -> Estimate:
+    """What load, delay and gain follow: masses with all that is added to them, friction and rotors.
+
+    Args:
+        causes: with their numbers, SI.
+        inertial: (10 n,) inertial parameters without them.
+        background: (m, 4) as in `Estimate`.
+        gain: (m,) as there.
+
+    Returns:
+        The model.
+    """
+    delay, of_runs = np.zeros(len(background)), dict[str, Array]()
+    there = [(cause, values) for cause, values in causes if np.any(values)]
+    for cause, values in there:
+        if cause.inertial is not None and not cause.runs:
+            inertial = inertial + cause.inertial @ values
+        elif cause.inertial is not None:
+            of_runs |= {run: of_runs.get(run, 0.0) + cause.inertial @ values for run in cause.runs}
+        if cause.cause is DELAY:
+            delay[list(cause.joints)] += values[0]
+    loads = tuple(each for each in there if each[0].cause is LOAD_CHANGE)
+    laws = tuple(each for each in there if follows_motion(each[0].columns, each[0].joints))
+    return Estimate(inertial, background, delay, of_runs, laws=laws, loads=loads, gain=gain)
 
 
 def stated_model(arm: MovingArm) -> Estimate:

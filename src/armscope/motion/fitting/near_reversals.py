@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from armscope.motion.fitting.consistency import factor_in
 from armscope.motion.fitting.constants import SETTLED
-from armscope.motion.fitting.rows import MotionRows, StatedSamples
+from armscope.motion.fitting.modelled_samples import StatedSamples
+from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.sums import sums_by_joint
 from armscope.motion.fitting.weights import weighed

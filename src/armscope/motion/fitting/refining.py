@@ -157,9 +157,7 @@ def carried_in(selected: SelectedCauses, load: PlacedCause) -> tuple[Array, floa
         cause, columns = rows.layout.placed[number], rows.layout.columns[number]
         if cause.inertial is not None and (not cause.runs or set(cause.runs) == set(load.runs)):
             added += (cause.inertial @ selected.coefficients[columns])[-10:-6]
-    there = [each.signals for each in rows.samples if not load.runs or each.signals.run in load.runs]
-    stated = [np.zeros(1) if each.payload is None else np.nan_to_num(each.payload) for each in there]
-    return added, float(np.mean(np.concatenate(stated))) if stated else 0.0
+    return added, rows.stated_payload(load.runs)
 
 
 def _exact(selected: SelectedCauses, number: int) -> Refined:

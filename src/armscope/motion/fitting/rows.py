@@ -10,30 +10,13 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices, Progress, unheard
 from armscope.motion.fitting.model_estimate import Estimate
+from armscope.motion.fitting.modelled_samples import StatedSamples, friction, modelled_samples, stated_samples
 from armscope.motion.fitting.pauses import Pauses, joined, pauses_of, stands
-from armscope.motion.library.causes import Moment
-from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction, own_columns
+from armscope.motion.library.dry_friction import ChangeOfSides
 from armscope.motion.library.laws import FOLLOWS_MODEL, Law
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
-from armscope.motion.samples.preparation import Preparation, Signals, parts
+from armscope.motion.samples.preparation import Preparation, parts
 from armscope.motion.samples.timing import Stretch
-from armscope.robot.bodies import Bodies
-from armscope.robot.dynamics import MovingArm
-
-
-@dataclass(frozen=True, eq=False)
-class StatedSamples:
-    """Samples with what the model asks of them before anything is fitted.
-
-    Attributes:
-        signals: N samples.
-        torque: (N, m) that the stated masses ask for.
-        carried: (N, m) that the stated payload asks for.
-    """
-
-    signals: Signals
-    torque: Array
-    carried: Array | float
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +75,12 @@ class MotionRows:
                 found[there] -= np.column_stack([self._at(j, lacking, rows) for j in range(len(self.columns))])
         return found
 
+    def stated_payload(self, runs: Sequence[str]) -> float:
+        """Kg that are stated in some runs, or in all where none is given, in the mean of their samples."""
+        there = [each.signals for each in self.samples if not runs or each.signals.run in runs]
+        stated = [np.zeros(len(each.time)) if each.payload is None else each.payload for each in there]
+        return float(np.mean(np.concatenate(stated))) if stated else 0.0
+
     @property
     def moving(self) -> NDArray[np.bool_]:
         """(K, m) where a joint moves and no force of a pause is most of what a row holds."""
@@ -138,7 +127,7 @@ def build_rows(
     pieces, done, total = [], 0, sum(len(stretch) for stretch in stretches)
     fresh = range(len(layout.placed)) if before is None else _following(layout, before.layout)
     if before is None:
-        made = (_Piece(layout, *_stated(layout.arm, signals), how, model) for signals in parts(stretches, how))
+        made = (_Piece(layout, *stated_samples(layout.arm, signals), how, model) for signals in parts(stretches, how))
     else:
         made = (_Piece(layout, samples, None, how, model) for samples in before.samples)
     for piece in made:
@@ -186,13 +175,6 @@ def _renewed(layout: TorqueLayout, before: MotionRows, pieces: list[MotionRows])
     return replace(of, layout=layout, columns=tuple(columns), nominal=nominal)
 
 
-def _stated(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:
-    """Samples with their stated torque, and (N, m, 10 n) torque per inertial parameter."""
-    regressor = arm.regressor(*signals.of_links)
-    carried = 0.0 if signals.payload is None else signals.payload[:, None] * (regressor @ arm.point_load())
-    return StatedSamples(signals, regressor @ arm.inertial, carried), regressor
-
-
 class _Piece:
     """Some samples, with what the model says of them, on the way to rows."""
 
@@ -205,37 +187,8 @@ class _Piece:
         arm, signals = layout.arm, samples.signals
         self.arm, self.signals = arm, signals
         turning = ChangeOfSides.of(arm, self.turning, layout.width_of_sides, layout.order_of_sides)
-        self.background = own_columns(signals, turning)
-        inertial = model.inertial_in(signals.run)
-        rigid = arm.torques(*signals.of_links, inertial) if regressor is None else regressor @ inertial
-        bodies = Bodies(arm, inertial if model.of_bodies else arm.inertial, signals.payload)
-        changing = model.carried(signals, bodies)
-        rigid = rigid + samples.carried + changing
-        friction, stated = self._friction(model.background), samples.torque + samples.carried
-        gravity = None
-        if regressor is not None and any(cause.cause.name == "gravity_direction" for cause in layout.placed):
-            gravity = np.stack([arm.gravity_torques(signals.of_links[0], axis) for axis in np.eye(3)], axis=2)
-        dry = DryFriction(model.background[:, 1], turning)
-        rate = how.rate / signals.stride
-        moment = Moment(
-            signals=signals,
-            rigid=rigid,
-            predicted=rigid + friction,
-            gravity=gravity,
-            rate=rate,
-            bodies=bodies,
-            dry=dry,
-            stated=stated,
-            bare=stated + friction,
-            read=stated + self._friction(np.nan_to_num(arm.stated_background)),
-        )
-        smooth = model.smooth.with_laws(moment)
-        self.rounded = dry.rounded(signals, smooth.predicted - changing, model.delay, how.motion_hz)
-        self.moment = model.rippled.with_laws(smooth)
-
-    def _friction(self, numbers: Array) -> Array:
-        """(N, m) torque of offset, friction and rotor (m, 4) of each joint."""
-        return np.asarray(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], numbers))
+        at = modelled_samples(arm, samples, model, turning, how, regressor)
+        self.background, self.moment, self.rounded = at.own, at.moment, at.rounded
 
     def low(self, values: Array) -> Array:
         """The rows of samples."""
@@ -283,7 +236,7 @@ class _Piece:
         stated = np.nan_to_num(self.arm.stated_background)
         nominal = regressor @ self.arm.inertial
         if np.any(stated):
-            nominal += self.low(np.einsum("nmk,mk->nm", self.background[:, :, :CAUSES_OF_OWN], stated))
+            nominal += self.low(friction(self.background, stated))
         return nominal if self.signals.payload is None else nominal + self.low(np.asarray(self.samples.carried))
 
     def _own_columns(self, causes: Iterable[int]) -> list[tuple[list[Array], list[Indices]]]:

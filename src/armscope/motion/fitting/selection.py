@@ -18,7 +18,7 @@ from armscope.motion.constants import NOISE, PRIOR
 from armscope.motion.fitting.clocks import parted_where_they_differ
 from armscope.motion.fitting.gains import gain_of, meeting_gain
 from armscope.motion.fitting.hoses import offsets_for_cables
-from armscope.motion.fitting.model_estimate import Estimate, stated_model
+from armscope.motion.fitting.model_estimate import Estimate, estimate_of, stated_model
 from armscope.motion.fitting.near_reversals import told_by_reversals_alone
 from armscope.motion.fitting.preferred import named_first, plain_first
 from armscope.motion.fitting.refining import refined, sits_nowhere
@@ -28,10 +28,6 @@ from armscope.motion.fitting.space import build_space
 from armscope.motion.fitting.sums import Earlier, JointSums, sums_by_joint, together
 from armscope.motion.fitting.torque_delay import Between
 from armscope.motion.fitting.weights import TorqueWeights, estimate_weights, left_inside_and_apart, weighed
-from armscope.motion.library import catalogue
-from armscope.motion.library.causes import PlacedCause
-from armscope.motion.library.changes_catalogue import LOAD_CHANGE
-from armscope.motion.library.laws import follows_motion
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN, TorqueLayout
 from armscope.motion.library.masses import has_its_own_inertia
 from armscope.motion.samples.preparation import Preparation
@@ -41,25 +37,11 @@ from armscope.motion.samples.timing import Stretch
 def estimated_model(layout: TorqueLayout, coefficients: Array) -> Estimate:
     """What load, delay and gain follow: inertial parameters with all that was added to them, and the background."""
     inertial = layout.arm.inertial + layout.inertial_scale * coefficients[layout.inertial]
-    delay, of_runs = np.zeros(layout.arm.n_motors), dict[str, Array]()
-    laws: list[tuple[PlacedCause, Array]] = []
-    loads: list[tuple[PlacedCause, Array]] = []
-    for cause, columns in zip(layout.placed, layout.columns, strict=True):
-        if cause.inertial is not None and not cause.runs:
-            inertial = inertial + cause.inertial @ coefficients[columns]
-        elif cause.inertial is not None and np.any(coefficients[columns]):
-            for run in cause.runs:
-                of_runs[run] = of_runs.get(run, 0.0) + cause.inertial @ coefficients[columns]
-        elif cause.cause is LOAD_CHANGE and np.any(coefficients[columns]):
-            loads.append((cause, coefficients[columns]))
-        elif follows_motion(cause.columns, cause.joints) and np.any(coefficients[columns]):
-            laws.append((cause, coefficients[columns]))
-        if cause.cause is catalogue.DELAY:
-            delay[list(cause.joints)] += coefficients[columns[0]]
+    numbers = [coefficients[columns] for columns in layout.columns]
     own = coefficients[layout.own].reshape(-1, OWN)[:, :CAUSES_OF_OWN]
     background = np.nan_to_num(layout.arm.stated_background) + own
-    gain = gain_of(layout, coefficients)
-    return Estimate(inertial, background, delay, of_runs, laws=tuple(laws), loads=tuple(loads), gain=gain)
+    causes = zip(layout.placed, numbers, strict=True)
+    return estimate_of(causes, inertial, background, gain_of(layout, coefficients))
 
 
 def model_of(selected: SelectedCauses) -> Estimate:

@@ -13,6 +13,7 @@ from scipy.interpolate import CubicSpline
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.near_reversals import settled_rows
+from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.catalogue import DELAY
 from armscope.motion.samples.constants import FILTER
@@ -61,7 +62,7 @@ def lag_of(selected: SelectedCauses, joint: int, number: int) -> tuple[float, fl
     unit = (PRIOR.unit / selected.weights.sigma[joint] / best.noise) ** 2 / selected.weights.correlated[joint]
     root = np.sqrt(unit * selected.weights.row[among, joint])[:, None]
     others = ~np.isin(best.columns, rows.layout.columns[number])
-    X = root * columns_of(selected, joint, best.columns[others])[among] / scale[best.columns[others]]
+    X = root * columns_of(rows, joint, best.columns[others])[among] / scale[best.columns[others]]
     slope, left = root[:, 0] * _slope(selected, joint)[among], root[:, 0] * selected.residuals[among, joint]
     return _apart(X, 1 / best.variance[others], slope, left)
 
@@ -124,19 +125,18 @@ def _slope(selected: SelectedCauses, joint: int) -> Array:
     return found
 
 
-def columns_of(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
-    """Some columns of a joint, zero where it has none of them; combinations of masses among them.
+def columns_of(rows: MotionRows, joint: int, columns: Indices) -> Array:
+    """Some columns of a joint, combinations of masses among them; zero where it, or a run, has none of them.
 
     Args:
-        selected: a selection.
+        rows: of samples.
         joint: from 0.
         columns: (C,) their numbers.
 
     Returns:
         (K, C).
     """
-    rows = selected.rows
-    made, shares = rows.layout.made_of_masses
+    made, _ = rows.layout.made_of_masses
     own, at = rows.columns[joint] * rows.gain_of_columns(joint), rows.at[joint]
     found = np.zeros((len(rows), len(columns)))
     there = np.flatnonzero(np.isin(columns, at))
@@ -145,5 +145,7 @@ def columns_of(selected: SelectedCauses, joint: int, columns: Indices) -> Array:
     if len(combined):
         of_masses = own[:, np.searchsorted(at, rows.layout.inertial)].astype(np.float64)
         order = [int(np.flatnonzero(made == column)[0]) for column in columns[combined]]
-        found[:, combined] += of_masses @ shares[:, order]
+        for run in np.unique(rows.run):
+            there = np.flatnonzero(rows.run == run)
+            found[np.ix_(there, combined)] += of_masses[there] @ rows.layout.shares_in(str(run))[:, order]
     return found

@@ -195,7 +195,8 @@ def weighed(rows: MotionRows, parts: Iterable[JointSums], weights: TorqueWeights
         by_run[part.run] = NormalEquations(
             so_far.G, so_far.b, so_far.yy + unit[j] * own.yy, so_far.n + counts[j] * own.n
         )
-    return total([_with_masses(sums, layout, run) for run, sums in by_run.items()])
+    none = NormalEquations(np.zeros((layout.width,) * 2), np.zeros(layout.width), 0.0, 0.0)  # where no joint takes part
+    return total([none, *(_with_masses(sums, layout, run) for run, sums in by_run.items())])
 
 
 def _with_masses(sums: NormalEquations, layout: TorqueLayout, run: str) -> NormalEquations:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from armscope.core.types import Progress
@@ -21,7 +21,6 @@ def with_changes(
     seen: Seen,
     stretches: Sequence[Stretch],
     how: Preparation,
-    stated: Mapping[str, float],
     progress: Progress,
 ) -> SelectedCauses:
     """A selection in which loads that come and go compete, too, where a scan found any; the same where none has a name.
@@ -31,7 +30,6 @@ def with_changes(
         seen: of the table.
         stretches: even samples, ``effort`` in N m.
         how: filters and decimation.
-        stated: payload of each run, kg.
         progress: hears what is being done.
 
     Returns:
@@ -39,7 +37,11 @@ def with_changes(
     """
     layout = selected.rows.layout
     changes = load_changes(selected, how.cutoff)
-    placed = [cause for change in changes for cause in place_changes(seen, change, stated.get(change.run, 0.0))]
+    placed = [
+        cause
+        for change in changes
+        for cause in place_changes(seen, change, selected.rows.stated_payload((change.run,)))
+    ]
     if not placed:
         return selected
     model = model_of(selected)

@@ -74,7 +74,6 @@ class Moment:
         signals: the samples.
         rigid: (N, m) torque that the masses ask for.
         predicted: (N, m) torque with friction and whatever else is in the model.
-        gravity: (N, m, 3) torque per m/s^2 of gravity along each base axis; None where it is not formed yet.
         rate: samples per second.
         bodies: what asks for torque on other motions than the samples'; None where no law has any.
         dry: the dry friction that is in ``predicted``; None where that holds none.
@@ -88,7 +87,6 @@ class Moment:
     signals: Signals
     rigid: Array
     predicted: Array
-    gravity: Array | None
     rate: float
     bodies: Bodies | None = None
     dry: DryFriction | None = None
@@ -211,7 +209,7 @@ class Seen:
         speeds: (m, K) speeds without their sign, evenly spaced among all.
         load: (m,) largest torque that the stated masses ask for, N m.
         effort: (m,) RMS of the recorded torque.
-        time: (2,) s, first and last, of the longest run.
+        time: (2,) s, first and last, of runs since each began.
         temperature: (m, 2) deg C, or None.
         running_min: min that all runs take together.
         runs: names in order.

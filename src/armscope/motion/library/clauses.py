@@ -210,8 +210,9 @@ def grows_clause(cause: FoundCause, numbers: Numbers) -> str:
 
 def stribeck_clause(cause: FoundCause, numbers: Numbers) -> str:
     """Friction near rest."""
-    extra = numbers["stribeck"]
-    if abs(extra.value) < INTERVAL * extra.stderr:  # its fall is no bell, and its height at rest is not what matters
+    extra, wider = numbers["stribeck"], numbers["wider"]
+    later = math.exp(-2) * (extra.value + 2 * wider.value)  # where a bell as wide has gone
+    if later * extra.value > extra.value**2 or abs(extra.value) < INTERVAL * extra.stderr:
         return f"friction of {cause.location} near rest is not what it is farther from it ({rms_of(cause)})"
     return f"friction of {cause.location} is {amount(extra)} {'higher' if extra.value > 0 else 'lower'} near rest"
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.motion.library.causes import Moment
-from armscope.motion.samples.preparation import without_lag
+from armscope.motion.samples.low_pass import without_lag
 
 
 def taken_along(values: Array, ways: tuple[float, ...]) -> Array:

@@ -10,7 +10,8 @@ from scipy.interpolate import BSpline, make_interp_spline
 from armscope.core.types import Array, Indices
 from armscope.motion.library.sides import blunt_width, sharp_width, side
 from armscope.motion.samples.constants import FILTER
-from armscope.motion.samples.preparation import Signals, without_lag
+from armscope.motion.samples.low_pass import without_lag
+from armscope.motion.samples.preparation import Signals
 from armscope.robot.dynamics import MovingArm
 
 

@@ -23,7 +23,7 @@ from armscope.motion.library.rocking import rocking
 from armscope.motion.library.sides import side
 from armscope.motion.library.warmth import RUNNING, warm, warmth, while_running
 from armscope.motion.library.waves import wave
-from armscope.motion.samples.preparation import without_lag
+from armscope.motion.samples.low_pass import without_lag
 
 
 @dataclass(frozen=True)
@@ -177,7 +177,7 @@ def _uneven_side(m: Moment, joints: tuple[int, ...], width: float) -> Array:
 
 
 CLINGING = ("clinging over torques", "clinging over smooth torques")
-FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", "delayed torque", *CLINGING})
+FOLLOWS_MODEL = frozenset({"load friction", "powers of torque", "delayed torque", "leaning gravity", *CLINGING})
 """Laws of what the model says so far; the others depend on the motion, or on what is stated, alone."""
 OF_A_GAIN = ("torque", "powers of torque")
 """Laws that scale a joint's torque, by one more than their first number."""
@@ -198,7 +198,7 @@ DRIVERS: dict[str, Callable[[Moment, int], Array]] = {
     "joint angle": lambda m, j: m.signals.q[:, j],
     "speed": lambda m, j: m.signals.dq[:, j],
     "load": lambda m, j: m.load[:, j],
-    "time": lambda m, j: m.signals.time,
+    "time": lambda m, j: m.signals.time - m.signals.began,
     "temperature": warmth,
 }
 """What a free curve may follow."""
@@ -230,12 +230,9 @@ def _inert(m: Moment, joints: tuple[int, ...], sign: float) -> Array:
 
 
 def _lean(m: Moment, joints: tuple[int, ...], *leans: float) -> Array:
-    if m.gravity is not None:
-        return np.asarray(m.gravity @ np.array(leans).reshape(-1, 3).T)
+    """What is carried leans along, and beside masses that are off, a lean is off as they are."""
     assert m.bodies is not None
-    arm, inertial = m.bodies.arm, m.bodies.inertial  # as fitted: beside masses that are off, a lean is off as they are
-    ways = np.array(leans).reshape(-1, 3)
-    return np.stack([arm.gravity_torques(m.motion[0], way, inertial) for way in ways], axis=2)
+    return np.stack([m.bodies.held(m.motion[0], way) for way in np.array(leans).reshape(-1, 3)], axis=2)
 
 
 def _wound_up(m: Moment, joints: tuple[int, ...]) -> Array:

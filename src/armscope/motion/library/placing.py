@@ -283,7 +283,7 @@ def _coupled(seen: Seen, j: int, k: int, inertias: Columns) -> Iterator[PlacedCa
             catalogue.COUPLED_INERTIA,
             place,
             "the neighbour's acceleration",
-            (("inertia", "kg m^2"),),
+            (("inertia", "kg" if seen.arm.sliding[j] else "kg m^2"),),
             (j, k),
             Law("inertia of two", (j, k), (sign,)),
             variant=variant,

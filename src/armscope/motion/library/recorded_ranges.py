@@ -13,13 +13,13 @@ from armscope.motion.samples.timing import Stretch
 from armscope.robot.dynamics import MovingArm
 
 
-def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
+def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: Array | float) -> Seen:
     """Ranges of what causes follow, from some of the samples.
 
     Args:
         arm: the arm.
         stretches: even samples.
-        still: a joint that spans less stands, rad or m.
+        still: a joint that spans less stands, rad or m; of all, or (m,).
 
     Returns:
         What the library needs to know of the table.
@@ -39,7 +39,7 @@ def seen_in(arm: MovingArm, stretches: Sequence[Stretch], still: float) -> Seen:
         speeds=np.percentile(np.abs(dq), np.arange(0.5, 100), axis=0).T,
         load=np.maximum(load, 1e-9),
         effort=np.maximum(np.sqrt(np.mean(np.concatenate([s.effort for s in stretches]) ** 2, axis=0)), 1e-9),
-        time=np.array([min(s.time[0] for s in stretches), max(s.time[-1] for s in stretches)]),
+        time=np.array([min(s.time[0] - s.began for s in stretches), max(s.time[-1] - s.began for s in stretches)]),
         temperature=np.percentile(np.concatenate(warm), [0.1, 99.9], axis=0).T if warm else None,
         running_min=_running_min(stretches),
         runs=runs,

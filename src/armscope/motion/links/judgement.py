@@ -129,7 +129,7 @@ def _cause(
         doubts.append("Undetermined: by themselves, no two parts of the motion tell its size.")
     if placed.cause is ELASTICITY:
         compliance = float(twist.coefficients[rows.at[number + 1]][0])
-        doubts += too_loose(swing_of(arm, selected.rows.q, rows.joint, max(compliance, 1e-300)))
+        doubts += too_loose(swing_of(selected.rows, rows.joint, max(compliance, 1e-300)))
     made = rows.columns[:, rows.at[number + 1]] @ twist.coefficients[rows.at[number + 1]]
     return FoundCause(
         effect=placed.cause.name,

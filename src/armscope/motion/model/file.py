@@ -59,6 +59,7 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
                 gain=float(gain),
                 width=width,
                 order=0 if model.order_of_sides is None else int(model.order_of_sides[j]),
+                **_range_of(model, j),
             )
             for j, (own, gain, width) in enumerate(zip(model.joints, model.gains, _widths(model), strict=True))
         ),
@@ -72,6 +73,11 @@ def save_motion_model(path: Path | str, model: MotionModel) -> None:
     )
     robot = model.arm.description.model_dump(mode="json", exclude_none=True)
     write_yaml(path, {**file.model_dump(mode="json"), "robot": robot})
+
+
+def _range_of(model: MotionModel, joint: int) -> dict[str, float]:
+    """Least and largest position of a joint, where they are known."""
+    return {} if model.positions is None else dict(zip(("least", "most"), model.positions[joint].tolist(), strict=True))
 
 
 def _widths(model: MotionModel) -> list[float] | list[None]:
@@ -151,6 +157,7 @@ def load_motion_model(path: Path | str) -> MotionModel:
         links=CauseReader(arm, path).causes(file.twists, "twists"),
         width_of_sides=_width_of_sides(file, arm),
         order_of_sides=np.array([joint.order for joint in file.joints], dtype=np.intp),
+        positions=_positions(file),
     )
 
 
@@ -160,3 +167,9 @@ def _width_of_sides(file: MotionModelFile, arm: MovingArm) -> Array | None:
     if all(width is None for width in told):
         return None
     return np.array([own if width is None else width for width, own in zip(told, sharp_width(arm), strict=True)])
+
+
+def _positions(file: MotionModelFile) -> Array | None:
+    """(m, 2) least and largest of each joint; None where the file lacks one."""
+    told = [(joint.least, joint.most) for joint in file.joints]
+    return None if any(None in each for each in told) else np.array(told, dtype=float)

@@ -105,7 +105,7 @@ class CauseReader:
         try:
             with np.errstate(divide="raise", invalid="raise", over="ignore"):
                 bodies = Bodies(self.arm, self.arm.inertial, None)
-                return law(Moment(signals, few, few, few[:, :, None] * np.ones(3), 1.0, bodies))
+                return law(Moment(signals, few, few, 1.0, bodies))
         except (TypeError, ValueError, ArithmeticError, IndexError) as error:
             found = f"joints {[j + 1 for j in law.joints]}, numbers {list(law.numbers)}"
             raise InputError(self.source, place, found, f"{law.kind!r} takes others ({error})") from error

@@ -34,7 +34,8 @@ class JointFile(Strict):
 
     ``blunter``, ``rounder``, ``later``: over which speed (N m) and time (N m s^2) friction changes sides, and when (N m
     s); ``gain``: share by which recorded torque is too large; ``width``: speed within which friction changes sides,
-    rad/s (m/s), where the motion says so; ``order``: of the low-pass by which it does so late, 0 where it is shifted.
+    rad/s (m/s), where the motion says so; ``order``: of the low-pass by which it does so late, 0 where it is shifted;
+    ``least``, ``most``: positions of the motion that was fitted, rad (m): turning joints are taken in that turn.
     """
 
     joint: Word
@@ -48,6 +49,8 @@ class JointFile(Strict):
     gain: Number
     width: Positive | None = None
     order: Annotated[int, Field(ge=0, le=2)] = 0
+    least: Number | None = None
+    most: Number | None = None
 
 
 class LinkFile(Strict):

@@ -10,12 +10,11 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.motion.constants import PRIOR
-from armscope.motion.fitting.model_estimate import Estimate
-from armscope.motion.library import catalogue
+from armscope.motion.fitting.model_estimate import Estimate, estimate_of
+from armscope.motion.fitting.modelled_samples import modelled_samples, stated_samples
 from armscope.motion.library.causes import Moment
-from armscope.motion.library.changes_catalogue import LOAD_CHANGE
-from armscope.motion.library.dry_friction import ChangeOfSides, DryFriction, own_columns, rounded_off
-from armscope.motion.library.laws import follows_motion, is_of_a_gain
+from armscope.motion.library.dry_friction import ChangeOfSides, rounded_off
+from armscope.motion.library.laws import is_of_a_gain
 from armscope.motion.library.layout import CAUSES_OF_OWN, DRY, LATER, OWN, ROUNDER, TorqueLayout
 from armscope.motion.library.sides import sharp_width
 from armscope.motion.model.fitted_cause import FittedCause
@@ -23,7 +22,6 @@ from armscope.motion.model.link_motion import beside_motor, following, moment_of
 from armscope.motion.samples.constants import FILTER
 from armscope.motion.samples.preparation import Preparation, Signals, parts
 from armscope.motion.samples.timing import Stretch
-from armscope.robot.bodies import Bodies
 from armscope.robot.dynamics import MovingArm
 
 
@@ -42,6 +40,7 @@ class MotionModel:
         response: by how much of its second derivative drives round a torque off, s^2.
         width_of_sides: (m,) rad/s (m/s) within which friction changes sides; None: as sharply as fits take it to.
         order_of_sides: (m,) of the low-pass by which it does so late; None or 0: it is shifted.
+        positions: (m, 2) rad (m), least and largest of the motion that it was fitted to; None: not known.
         links: why links lie beside their motors, rad (m): of joints where both were recorded.
     """
 
@@ -56,63 +55,23 @@ class MotionModel:
     links: tuple[FittedCause, ...] = ()
     width_of_sides: Array | None = None
     order_of_sides: Indices | None = None
+    positions: Array | None = None
 
     def followed(self) -> Estimate:
         """What load, delay and gain follow: masses with all that is added to them, friction and rotors."""
-        delay = np.zeros(self.arm.n_motors)
-        for cause in self.causes:
-            if cause.placed.cause is catalogue.DELAY:
-                delay[list(cause.placed.joints)] = cause.values[0]
-        runs = {run for cause in self.causes for run in cause.placed.runs}
-        everywhere = self._added(None)
-        of_runs = {run: self._added(run) - everywhere for run in runs}
-        laws = tuple(
-            (each.placed, each.values)
-            for each in self.causes
-            if follows_motion(each.placed.columns, each.placed.joints)
-        )
-        loads = tuple((each.placed, each.values) for each in self.causes if each.placed.cause is LOAD_CHANGE)
-        background = self.joints[:, :CAUSES_OF_OWN]
-        return Estimate(self.inertial + everywhere, background, delay, of_runs, laws=laws, loads=loads)
+        causes = ((each.placed, each.values) for each in self.causes)
+        return estimate_of(causes, self.inertial, self.joints[:, :CAUSES_OF_OWN])
 
-    def _added(self, run: str | None) -> Array:
-        """(10 n,) inertial parameters that causes add: those of every run, or those in one run."""
-        added = np.zeros(len(self.inertial))
-        for cause in self.causes:
-            there = not cause.placed.runs or (run is not None and run in cause.placed.runs)
-            if cause.placed.inertial is not None and there:
-                added = added + cause.placed.inertial @ cause.values
-        return added
-
-    def torque(self, signals: Signals, rate: float) -> Array:
-        """(N, m) torque at samples, as it would be recorded.
-
-        Args:
-            signals: filtered positions with their derivatives, payload and temperature.
-            rate: samples per second.
-        """
+    def torque(self, signals: Signals) -> Array:
+        """(N, m) torque at filtered samples, as it would be recorded."""
         signals = self.with_links(signals)
-        regressor = self.arm.regressor(*signals.of_links)
-        carried = np.zeros(regressor.shape[:2])
-        if signals.payload is not None:
-            carried = signals.payload[:, None] * (regressor @ self.arm.point_load())
-        followed = self.followed()
+        samples, regressor = stated_samples(self.arm, signals)
         joints, late, over = self._turning()
         turning = ChangeOfSides.of(self.arm, late, self._width(), self.order_of_sides)
-        own = own_columns(signals, turning)
+        at = modelled_samples(self.arm, samples, self.followed(), turning, self.how, regressor)
+        own, moment = at.own, at.moment
         own[:, :, ROUNDER] = rounded_off(own[:, :, DRY], over, signals.period) - own[:, :, DRY]
-        bodies = Bodies(self.arm, followed.inertial_in(signals.run), signals.payload)
-        changing = followed.carried(signals, bodies)
-        rigid = regressor @ followed.inertial_in(signals.run) + carried + changing
-        friction = np.einsum("nmk,mk->nm", own[:, :, :CAUSES_OF_OWN], followed.background)
-        dry = DryFriction(followed.background[:, 1], turning)
-        gravity, stated = self._gravity(signals.of_links[0], followed.inertial), regressor @ self.arm.inertial + carried
-        moment = Moment(signals, rigid, rigid + friction, gravity, rate, bodies, dry, stated, stated + friction)
-        moment = followed.smooth.with_laws(moment)
-        total = regressor @ (self.inertial + self._added(signals.run)) + carried
-        total += np.einsum("nmk,mk->nm", own, joints)
-        total += self.response * dry.rounded(signals, moment.predicted - changing, followed.delay, self.how.motion_hz)
-        moment = followed.rippled.with_laws(moment)
+        total = at.links + np.einsum("nmk,mk->nm", own, joints) + self.response * at.rounded
         true = [cause for cause in self.causes if not is_of_a_gain(cause.placed.columns)]
         _add(total, true, moment)
         moment = replace(moment, read=total.copy())
@@ -153,11 +112,6 @@ class MotionModel:
         sharp = sharp_width(self.arm)
         own = sharp if self.width_of_sides is None else self.width_of_sides
         return np.where(own > sharp, own, sharp / FILTER.sharper_at_rest)
-
-    def _gravity(self, q: Array, inertial: Array) -> Array | None:
-        if not any(each.placed.cause.name == "gravity_direction" for each in self.causes):
-            return None
-        return np.stack([self.arm.gravity_torques(q, axis, inertial) for axis in np.eye(3)], axis=2)
 
 
 def _add(total: Array, causes: Sequence[FittedCause], moment: Moment) -> None:
@@ -216,7 +170,7 @@ def predicted_torque(model: MotionModel, stretches: Sequence[Stretch]) -> list[A
     Returns:
         (N, m) of each stretch.
     """
-    return _at_samples(model, stretches, lambda signals: model.torque(signals, 1 / signals.period))
+    return _at_samples(model, stretches, model.torque)
 
 
 def predicted_links(model: MotionModel, stretches: Sequence[Stretch]) -> list[Array]:

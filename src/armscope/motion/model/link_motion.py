@@ -33,7 +33,7 @@ def moment_of_links(arm: MovingArm, signals: Signals, model: Estimate, rate: flo
     """
     bodies = Bodies(arm, model.inertial_in(signals.run), signals.payload)
     torque = bodies.torques(*signals.of_links)
-    return Moment(signals, torque, torque, None, rate, bodies)
+    return Moment(signals, torque, torque, rate, bodies)
 
 
 def following(

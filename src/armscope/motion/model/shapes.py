@@ -59,4 +59,4 @@ def everything_is(values: Array, joints: int) -> Moment:
     """Samples in which whatever a law follows takes the given values; nothing accelerates."""
     same, none = np.repeat(values[:, None], joints, axis=1), np.zeros((len(values), joints))
     signals = Signals("", 0, values, same, same, none, none, None, same, np.arange(len(values)))
-    return Moment(signals, same, same, None, 1.0)
+    return Moment(signals, same, same, 1.0)

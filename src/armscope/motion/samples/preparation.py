@@ -18,8 +18,9 @@ from scipy.interpolate import make_interp_spline
 
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import CUTOFF, FILTER, READING
-from armscope.motion.samples.ends import going_on, turned_about
+from armscope.motion.samples.ends import turned_about
 from armscope.motion.samples.link_band import link_bands
+from armscope.motion.samples.low_pass import low_pass_sections, without_lag
 from armscope.motion.samples.timing import Stretch
 
 
@@ -99,34 +100,6 @@ class Preparation:
         )
 
 
-def without_lag(values: Array, cutoff: float, rate: float, padded: int, going: bool = False) -> Array:
-    """Samples through the low-pass, forward and back.
-
-    Args:
-        values: (N, ...).
-        cutoff: Hz.
-        rate: samples per second.
-        padded: samples by which the ends are continued, turned about the end points.
-        going: continue them as they go on, before that; what is left out at the ends needs it not.
-
-    Returns:
-        (N, ...).
-    """
-    from scipy.signal import sosfiltfilt  # takes long to import: a table that is refused needs none
-
-    if going:
-        whole, more = going_on(values, min(cutoff, 0.49 * rate), rate)
-        return without_lag(whole, cutoff, rate, padded)[more:-more]
-    return np.asarray(sosfiltfilt(_sections(cutoff, rate), values, axis=0, padlen=min(padded, len(values) - 1)))
-
-
-@functools.lru_cache(maxsize=8)
-def _sections(cutoff: float, rate: float) -> Array:
-    from scipy.signal import butter
-
-    return np.asarray(butter(FILTER.order, min(cutoff, 0.49 * rate), fs=rate, output="sos"))
-
-
 @functools.lru_cache(maxsize=8)
 def _weights(cutoff: float, rate: float, every: int, stride: int) -> tuple[Array, int]:
     """(B, n) weights of every ``stride``-th sample in B rows `every` apart, and by how many they reach beyond a row."""
@@ -135,7 +108,7 @@ def _weights(cutoff: float, rate: float, every: int, stride: int) -> tuple[Array
     impulse[3 * reach] = 1.0
     from scipy.signal import sosfiltfilt
 
-    response = sosfiltfilt(_sections(cutoff, rate), impulse, padlen=0)[2 * reach : 4 * reach + 1]
+    response = sosfiltfilt(low_pass_sections(cutoff, rate), impulse, padlen=0)[2 * reach : 4 * reach + 1]
     response = response[reach % stride :: stride]
     response /= response.sum()
     reach, every = reach // stride, every // stride
@@ -187,6 +160,7 @@ class Signals:
         twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
         cut: (K, m) rows that hold some effort that was cut off; or None.
         running: (N,) s that the arm has run, or None.
+        began: s, when the run began.
     """
 
     run: str
@@ -204,6 +178,7 @@ class Signals:
     twist: Array | None = None
     cut: NDArray[np.bool_] | None = None
     running: Array | None = None
+    began: float = 0.0
 
     def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
         """(N,) velocity and acceleration of a joint's motor some time ago, s: a cubic by both between samples."""
@@ -276,6 +251,7 @@ def _part(stretch: Stretch, number: int, rows: Indices, how: Preparation, every_
         None if twist is None or every_sample else how.low_passed(twist, rows - low),
         stretch.cut_about(rows, READING.cut_reach / how.cutoff),
         None if stretch.running is None else stretch.running[inside][::stride],
+        stretch.began,
     )
 
 

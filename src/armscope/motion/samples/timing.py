@@ -13,6 +13,7 @@ from armscope.core.averages import robust_scale
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
 from armscope.motion.samples.constants import READING, TIMING
+from armscope.motion.samples.low_pass import mean_about, without_what_is_faster
 from armscope.recordings.motions import Motions
 from armscope.verdict.schema import Notice
 
@@ -23,6 +24,7 @@ class Stretch:
 
     ``cut``: (N, m) where the effort was cut off at the most that its channel shows; None for nowhere. ``since``: s that
     the arm had run before the first sample, if it ran on from one run of the table to the next; None: not known.
+    ``began``: s, when its run began, by the run's own stamps.
     """
 
     run: str
@@ -35,6 +37,7 @@ class Stretch:
     link: Array | None = None
     cut: NDArray[np.bool_] | None = None
     since: float | None = None
+    began: float = 0.0
 
     def __len__(self) -> int:
         return len(self.time)
@@ -202,14 +205,15 @@ def _rebuilt(motions: Motions, rows: np.ndarray, period: float) -> Array | None:
 def stretches(motions: Motions) -> Iterator[Stretch]:
     """The runs on even grids, parted where samples are missing; all at one rate, that of the middle one of them."""
     period, pieces = parted(motions)
-    began, so_far = {}, 0.0
+    began, before, so_far = {}, {}, 0.0
     for run in motions.runs:
         time = motions.time[motions.run == run]
-        began[run] = so_far - time[0]
+        began[run], before[run] = float(time[0]), so_far
         so_far += float(np.ptp(time))
     for run, rows in pieces:
         if len(rows) > 1:
-            yield replace(_even(motions, rows, run, period), since=float(began[run] + motions.time[rows[0]]))
+            since = before[run] + float(motions.time[rows[0]]) - began[run]
+            yield replace(_even(motions, rows, run, period), since=since, began=began[run])
 
 
 def parted(motions: Motions) -> tuple[float, list[tuple[str, Indices]]]:
@@ -250,13 +254,20 @@ def _even(motions: Motions, rows: np.ndarray, run: str, period: float) -> Stretc
     time = motions.time[rows]
     grid = time[0] + period * np.arange(int(np.floor((time[-1] - time[0]) / period + 1e-6)) + 1)
 
+    own = float(np.median(np.diff(time)))
+
     def laid(values: Array | None) -> Array | None:
         if values is None:
             return None
-        return np.column_stack([np.interp(grid, time, column) for column in values[rows].reshape(len(rows), -1).T])
+        columns = values[rows].reshape(len(rows), -1)
+        if own * TIMING.slower < period:
+            columns = without_what_is_faster(columns, time, own, period)
+        return np.column_stack([np.interp(grid, time, column) for column in columns.T])
 
     q, effort = laid(motions.q), laid(motions.effort)
-    if float(np.median(np.diff(time))) > TIMING.slower * period and len(rows) > 3:
+    if own * TIMING.slower < period:
+        effort = mean_about(grid, period, time, motions.effort[rows])
+    if own > TIMING.slower * period and len(rows) > 3:
         from scipy.interpolate import make_interp_spline  # takes long to import: a table that is refused needs none
 
         # straight lines between samples that are far apart have corners: acceleration that the arm never had

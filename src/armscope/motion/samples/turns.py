@@ -42,6 +42,42 @@ def counted_on(motions: Motions) -> tuple[Motions, list[Notice]]:
     return changed, [Notice("within one turn", text)]
 
 
+def laid_about(motions: Motions, known: Array | None) -> tuple[Motions, list[Notice]]:
+    """The table with its turning joints in the turns in which a model knows them, run by run.
+
+    Angles of one turn are told alike in the next; springs and cables are not. A run that lies where the model was
+    fitted stays.
+
+    Args:
+        motions: the samples, without jumps.
+        known: (m, 2) rad, least and largest angles of the model's own motion; None where they are not known.
+
+    Returns:
+        The samples, and one notice that names what was moved; none where nothing was.
+    """
+    if known is None:
+        return motions, []
+    q, told = motions.q.copy(), []
+    for j in np.flatnonzero(~motions.sliding):
+        for run in motions.runs:
+            there = motions.run == run
+            least, most = float(q[there, j].min()), float(q[there, j].max())
+            turns = float(np.round((known[j].mean() - (least + most) / 2) / TURN))
+            now, then = (_beyond((least + by, most + by), known[j]) for by in (0.0, TURN * turns))
+            if then < now:
+                q[there, j] += TURN * turns
+                told.append(f"q{j + 1}{f' of run {run}' if run else ''} by {turns:+.0f}")
+    if not told:
+        return motions, []
+    text = f"Laid in the turn in which the model knows them, in whole turns: {', '.join(told)}."
+    return replace(motions, q=q, link=_with_motors(motions, q)), [Notice("within one turn", text)]
+
+
+def _beyond(span: tuple[float, float], known: Array) -> float:
+    """Rad by which a range lies outside another one, at both ends together."""
+    return max(float(known[0]) - span[0], 0.0) + max(span[1] - float(known[1]), 0.0)
+
+
 def leaps(motions: Motions) -> list[tuple[int, int, float]]:
     """Steps of turning joints that are neither motion nor whole turns: joint, row after it, and rad, the first of each.
 

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
 from armscope.inference.search import Search
-from armscope.motion.fitting.consistency import sizes_by_block
+from armscope.motion.fitting.consistency import combination_by_block
 from armscope.motion.fitting.constants import CONSISTENCY
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.clauses import run_in_words
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
+from armscope.motion.samples.constants import FILTER
 from armscope.motion.summary.constants import LASTING
 from armscope.motion.summary.lasting import LastingTorque
 from armscope.verdict.wording import percent
@@ -65,11 +66,16 @@ def _departing(selected: SelectedCauses, joint: int, kind: str) -> _Departure:
     """Of one kind of a joint's friction; nothing where blocks agree."""
     rows, none = selected.rows, _Departure(np.zeros(len(selected.rows)))
     column = OWN * joint + NAMED_OF_OWN.index(kind)
-    whole = float(selected.coefficients[column] + np.nan_to_num(rows.layout.arm.stated_background[joint, column % OWN]))
+    if column not in selected.best.columns:
+        return none
+    columns, weights = _in_all(selected, joint, column)
+    fitted = float(weights @ selected.coefficients[columns])
+    whole = fitted + float(np.nan_to_num(rows.layout.arm.stated_background[joint, column % OWN]))
     if whole <= 0:
         return none
-    unit = np.array([whole * selected.problem.scale[column]])
-    size, error = sizes_by_block(selected, np.array([column]), unit)
+    ordinary = [OWN * joint + NAMED_OF_OWN.index(each) for each in KINDS]
+    free = np.intersect1d(ordinary, selected.best.columns)
+    size, error = (each / whole for each in combination_by_block(selected, columns, weights, free))
     telling = np.flatnonzero(error < CONSISTENCY.telling)
     if len(telling) < 2:
         return none
@@ -83,6 +89,24 @@ def _departing(selected: SelectedCauses, joint: int, kind: str) -> _Departure:
     other = np.where(error < CONSISTENCY.telling, size - np.median(size[telling]), 0.0)
     block = int(np.argmax(np.abs(other)))
     return _Departure(np.asarray(whole * more[selected.block] * values), float(other[block]), block)
+
+
+def _in_all(selected: SelectedCauses, joint: int, column: int) -> tuple[Indices, Array]:
+    """(c,) columns of a joint's whole friction, and how much of one kind each of them has in it.
+
+    A law over speed, or of the torque, takes part of dry friction and gives it back, in each run otherwise: the one
+    number differs where friction is the same.
+    """
+    rows, best, at = selected.rows, selected.best, selected.rows.at[joint]
+    own = [rows.layout.columns[n] for n in best.candidates if rows.layout.placed[n].joints == (joint,)]
+    named = np.concatenate([OWN * joint + np.arange(OWN), *own])
+    columns = np.intersect1d(np.intersect1d(named, at), best.columns)
+    which = np.flatnonzero(selected.weights.row[:, joint] > 0)
+    X = rows.columns[joint][which[:: -(-len(which) // LASTING.rows)]].astype(np.float64)
+    plain = [OWN * joint + NAMED_OF_OWN.index(kind) for kind in NAMED_OF_OWN]
+    basis = X[:, np.searchsorted(at, np.concatenate([plain, rows.layout.inertial]))]
+    told = np.linalg.lstsq(basis, X[:, np.searchsorted(at, columns)], rcond=FILTER.single)[0]
+    return columns, told[plain.index(column)]
 
 
 def _in_words(selected: SelectedCauses, departs: _Departure) -> str:

@@ -102,6 +102,11 @@ class HeldOutRules(Constants):
         "times the power that masses as stated leave at a joint, from which masses without a name go",
         "judgement: what says what is there leaves less at every joint; decided with one arm in view (5.7 times)",
     )
+    badly: float = constant(
+        3.0,
+        "times the error on the motion that was fitted, above which a run that was held out is met badly",
+        "judgement: other paths are met up to twice as badly",
+    )
     little_share: float = constant(
         0.05,
         "of what friction and rotors leave, below which causes that help nothing are no part of the story",

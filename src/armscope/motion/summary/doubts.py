@@ -6,15 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.core.types import Array
 from armscope.core.words import enumerated
 from armscope.motion.fitting.consistency import PARTS, PathAgreement
+from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue
 from armscope.motion.library.layout import NAMED_OF_OWN, OWN
 from armscope.motion.summary.constants import NAMING, PLAUSIBLE
 from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name
-from armscope.robot.dynamics import MovingArm
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, Parameter
 from armscope.verdict.wording import effect_in_words
 
@@ -110,25 +109,25 @@ def swing_hz(selected: SelectedCauses, number: int) -> float | None:
     compliance = float(selected.coefficients[selected.rows.layout.columns[number][0]])
     if placed.cause is not catalogue.COMPLIANCE or compliance <= 0:
         return None
-    return swing_of(selected.rows.layout.arm, selected.rows.q, placed.joints[0], compliance)
+    return swing_of(selected.rows, placed.joints[0], compliance)
 
 
-def swing_of(arm: MovingArm, poses: Array, joint: int, compliance: float) -> float:
-    """At which frequency a link swings on a drive, motor held, in its heaviest pose.
+def swing_of(rows: MotionRows, joint: int, compliance: float) -> float:
+    """At which frequency a link swings on a drive, motor held, in its heaviest pose, with all that it ever carried.
 
     Args:
-        arm: the arm.
-        poses: (K, m) positions in which it was.
+        rows: in which the arm was.
         joint: from 0.
         compliance: of its drive, rad/(N m), above zero.
 
     Returns:
         Hz.
     """
-    q = poses[:: max(len(poses) // PLAUSIBLE.poses, 1)]
+    arm, q = rows.layout.arm, rows.q[:: max(len(rows) // PLAUSIBLE.poses, 1)]
+    inertial = arm.inertial + max(rows.stated_payload((str(run),)) for run in np.unique(rows.run)) * arm.point_load()
     still, turning = np.zeros_like(q), np.zeros_like(q)
     turning[:, joint] = 1.0
-    inertia = (arm.torques(q, still, turning, arm.inertial) - arm.torques(q, still, still, arm.inertial))[:, joint]
+    inertia = (arm.torques(q, still, turning, inertial) - arm.torques(q, still, still, inertial))[:, joint]
     return float(1 / (2 * np.pi * np.sqrt(max(compliance * inertia.max(), 1e-300))))
 
 

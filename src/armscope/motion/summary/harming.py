@@ -6,7 +6,7 @@ Evidence on the motion that was fitted, in units of noise, does not see it; the 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +24,7 @@ from armscope.motion.summary.step_by_step import error_with
 
 
 def without_what_harms(
-    selected: SelectedCauses, sure: Sureness, parts: Sequence[Fold], carried: Mapping[str, float]
+    selected: SelectedCauses, sure: Sureness, parts: Sequence[Fold]
 ) -> tuple[SelectedCauses, Sureness]:
     """The selection without names that make motion which took no part worse, where all together do.
 
@@ -34,7 +34,6 @@ def without_what_harms(
         selected: the selection.
         sure: how far it can be trusted.
         parts: what is held out.
-        carried: stated payload of runs, kg.
 
     Returns:
         Both, as they are where names help all together.
@@ -62,4 +61,4 @@ def without_what_harms(
     search = Search.on(selected.problem)
     selected = at_own_gain(replace(selected, best=search.evaluated(tuple(kept), best)))
     selected = without_misplaced_masses(selected)
-    return selected, sureness(selected, carried)
+    return selected, sureness(selected)

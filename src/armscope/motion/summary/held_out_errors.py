@@ -23,6 +23,8 @@ class HeldOutErrors:
         named: with the causes that all of the motion names, their sizes found without it.
         masses: share of a link's mass, and so on, by which those are off that have no name.
         by_masses: share of what friction and rotors leave that these add to what has a name, in the motion fitted.
+        fitted: with the causes, on the motion fitted; 0 where it plays no part.
+        badly: runs that the user held out and that are met far worse than that, each with its error.
     """
 
     without: float
@@ -30,6 +32,8 @@ class HeldOutErrors:
     named: float
     masses: float = 0.0
     by_masses: float = 0.0
+    fitted: float = 0.0
+    badly: tuple[tuple[str, float], ...] = ()
 
     @property
     def worse(self) -> bool:
@@ -61,6 +65,14 @@ class HeldOutErrors:
     def no_answer(self) -> bool:
         """Whether the named ones don't clearly help either; at all, where found anew they do as well as none."""
         return self.useless if self._alike else self.worse and self.named > HELD_OUT.clearly_better * self.without
+
+    @property
+    def badly_words(self) -> str:
+        """Which runs are met badly, without the end of a sentence."""
+        (first, error), *others = self.badly
+        runs = [f"run {first} is met to {rounded(100 * error)} %"]
+        runs += [f"run {run} to {rounded(100 * error)} %" for run, error in others]
+        return f"{', '.join(runs)}, where the motion that was fitted is met to {rounded(100 * self.fitted)} %"
 
     @property
     def _alike(self) -> bool:

@@ -52,16 +52,8 @@ class Sureness:
     factor: Array
 
 
-def sureness(selected: SelectedCauses, carried: Mapping[str, float]) -> Sureness:
-    """What else would do, and how much wider intervals are for it.
-
-    Args:
-        selected: the selection.
-        carried: stated payload of runs, kg.
-
-    Returns:
-        What intervals are made of.
-    """
+def sureness(selected: SelectedCauses) -> Sureness:
+    """What else would do, and how much wider intervals are for it."""
     search, rivals = Search.on(selected.problem), {}
     for number in selected.best.candidates:
         held = search.in_background(selected.best, number)  # its rivals explain what it does without it, there, too
@@ -76,7 +68,7 @@ def sureness(selected: SelectedCauses, carried: Mapping[str, float]) -> Sureness
     if level:
         columns = selected.best.columns
         error = factor[columns] * np.sqrt(selected.best.variances(columns)) / selected.problem.scale[columns]
-        alike = level * np.abs(_whole(selected, carried)[columns])
+        alike = level * np.abs(_whole(selected)[columns])
         factor[columns] *= np.hypot(1.0, alike / error)
     return Sureness(search, rivals, factor)
 
@@ -107,7 +99,7 @@ def level_told(layout: TorqueLayout) -> list[Notice]:
     return [Notice("gains", text)]
 
 
-def _whole(selected: SelectedCauses, carried: Mapping[str, float]) -> Array:
+def _whole(selected: SelectedCauses) -> Array:
     """(p,) what each column's number is with its stated part, SI, where it grows with the gain; else 0."""
     layout, whole = selected.rows.layout, np.zeros(selected.rows.layout.width)
     stated = np.column_stack(
@@ -121,9 +113,8 @@ def _whole(selected: SelectedCauses, carried: Mapping[str, float]) -> Array:
         grows = [any(word in unit for word in ("N", "kg")) or name == "times" for name, unit in cause.parameters]
         whole[columns] = selected.coefficients[columns] * grows
         if cause.inertial is not None:
-            load = np.mean([carried.get(run, 0.0) for run in cause.runs or {*selected.rows.run.tolist()}])
             of_load = cause.cause is catalogue.PAYLOAD
-            own = load * layout.arm.point_load() if of_load else layout.arm.inertial
+            own = selected.rows.stated_payload(cause.runs) * layout.arm.point_load() if of_load else layout.arm.inertial
             whole[columns] += np.linalg.lstsq(cause.inertial, own, rcond=None)[0] * (cause.cause is not catalogue.BODY)
     return whole
 

@@ -7,9 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
-from armscope.motion.constants import TELLING
 from armscope.motion.fitting.consistency import PathAgreement, agreement
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.torque_delay import values_of
@@ -19,19 +17,16 @@ from armscope.motion.library.layout import OWN
 from armscope.motion.summary.confounding import gains_instead
 from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.doubts import as_likely_without, doubt_of, not_told_apart
-from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
+from armscope.motion.summary.headline import told_of
+from armscope.motion.summary.held_out_errors import HeldOutErrors
 from armscope.motion.summary.intervals import Sureness, errors_of
 from armscope.motion.summary.lasting import LastingTorque, lasting_words
 from armscope.motion.summary.rivals import listed_rivals
 from armscope.motion.summary.shares import Worth
-from armscope.motion.summary.words import clause, cure
+from armscope.motion.summary.words import cure
 from armscope.motion.verdict import FoundCause, JointBackground, UnexplainedTorque
-from armscope.verdict.effects import UNKNOWN, Alternative, Parameter
+from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.schema import Answer
-from armscope.verdict.wording import capitalised, percent, spelled
-
-MASSES_OFF = "Masses of the links"
-"""How a headline begins to say that they are off without a name."""
 
 
 def found_causes(selected: SelectedCauses, sure: Sureness, worth: Sequence[Worth]) -> list[tuple[int, FoundCause]]:
@@ -158,13 +153,27 @@ def joint_backgrounds(selected: SelectedCauses, sure: Sureness) -> tuple[JointBa
     return tuple(told)
 
 
-def unexplained(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]) -> UnexplainedTorque:
-    """The largest free curve, if one is not minor; else the largest torque that lasts and has no law at all."""
+def unexplained(
+    found: Sequence[FoundCause], lasting: Sequence[LastingTorque], errors: HeldOutErrors
+) -> UnexplainedTorque:
+    """The largest free curve, if one is not minor; else what lasts and has no law at all, or a run that is met badly.
+
+    Args:
+        found: the causes, largest first.
+        lasting: what lasts and has no law, largest first.
+        errors: on motion that took no part.
+
+    Returns:
+        It, where there is any.
+    """
     curves = [cause for cause in found if cause.nameless and not cause.minor]
     if curves:
         return UnexplainedTorque(True, curves[0].location, curves[0].driver, curves[0].title)
     if lasting:
         return UnexplainedTorque(True, f"joint {lasting[0].joint + 1}", lasting[0].driver, lasting_words(lasting[:1]))
+    if errors.badly:
+        run, _ = errors.badly[0]
+        return UnexplainedTorque(True, f"run {run}", f"run: {run}", errors.badly_words)
     return UnexplainedTorque(False)
 
 
@@ -179,72 +188,15 @@ def answer_of(found: Sequence[FoundCause], left: UnexplainedTorque, errors: Held
     Returns:
         Both.
     """
-    if not found or (errors.only_unnamed and not _told(found)):
+    if not found or (errors.only_unnamed and not told_of(found)):
         missing = left.present or errors.foretells_nothing or errors.only_unnamed
         return ("cannot tell", True) if missing else ("nothing missing", False)
     if errors.no_answer:
-        return ("cannot tell", True) if left.present or _told(found) else ("nothing missing", False)
+        return ("cannot tell", True) if left.present or told_of(found) else ("nothing missing", False)
     named = [cause for cause in found if not cause.nameless and not cause.minor]
     if left.present:
         return ("partly explained" if named else "cannot tell"), True
     return "explained", True
-
-
-def headline(
-    found: Sequence[FoundCause], errors: HeldOutErrors, lasting: Sequence[LastingTorque] = (), likeliest: str = ""
-) -> str:
-    """The largest causes with what each has of the torque that friction and rotors leave, the others by family.
-
-    Args:
-        found: the causes, largest first.
-        errors: on motion that took no part.
-        lasting: what lasts and has no law, largest first.
-        likeliest: the name of masses that comes next where none is sure enough.
-
-    Returns:
-        A sentence or some.
-    """
-    main = _told(found)
-    beyond = f"{capitalised(lasting_words(lasting[:1]))}. " if lasting else ""
-    if not main and errors.only_unnamed and not errors.foretells_nothing:
-        met, before = (f"{rounded(100 * error)} %" for error in (errors.named, errors.without))
-        return (
-            f"{MASSES_OFF} are not as stated, in a way that no single name says better than all of them off a "
-            f"little: corrected.urdf has them as fitted. {likeliest}{beyond}"
-            f"{ON_HELD_OUT} the torque is met to {met} by them instead of {before}."
-        )
-    if not found and lasting:
-        return f"{beyond}No cause of the library explains it. {errors.words(causes=False)}"
-    if not found:
-        met = f"{ON_HELD_OUT} the torque is met to {rounded(100 * errors.named)} %."
-        if errors.foretells_nothing:
-            return (
-                "Cannot tell what is missing: the model foretells these torques no better than none at all, and no "
-                f"cause mends it. Are they of this motion, and of this arm? {met}"
-            )
-        return f"Nothing is missing beyond friction and rotors of the joints. {met}"
-    if errors.no_answer and not main and not lasting:
-        nothing = "Nothing that helps elsewhere is missing beyond friction and rotors of the joints"
-        return f"{nothing}. {errors.words(causes=False)}"
-    told, rest = (main or found)[: TELLING.in_headline], main[TELLING.in_headline :]
-    of_what = (" of what friction and rotors leave", *[""] * len(told))
-    if errors.no_answer:
-        doubt = "Cannot tell what is missing: nothing that was found helps on motion that took no part"
-        return f"{doubt}. The reading that fits best: {clause(told[0])}. {errors.words()}"
-    causes = "; ".join(
-        f"{clause(c)}{_worth(c.share, of_what[n])}{', in doubt' if c.doubt else ''}" for n, c in enumerate(told)
-    )
-    unnamed = f"{MASSES_OFF} that are off without a name add {percent(errors.by_masses)}"
-    if masses_lead(found, errors):
-        first = f"{unnamed}{of_what[0]}; corrected.urdf has them as fitted. {likeliest}"
-        return f"{first}{capitalised(causes)}. {_further(rest)}{beyond}{errors.words()}"
-    unnamed = f"{unnamed}. " if errors.by_masses >= TELLING.minor_share else ""
-    return f"{capitalised(causes)}. {_further(rest)}{unnamed}{beyond}{errors.words()}"
-
-
-def masses_lead(found: Sequence[FoundCause], errors: HeldOutErrors) -> bool:
-    """Whether masses that are off without a name explain more than any cause that is told."""
-    return errors.by_masses > max((cause.share for cause in _told(found)), default=0.0)
 
 
 def apart_where_useless(found: Sequence[FoundCause], errors: HeldOutErrors) -> list[FoundCause]:
@@ -261,26 +213,3 @@ def doubted_beside(found: Sequence[FoundCause], lasting: Sequence[LastingTorque]
         replace(cause, doubt=f"{cause.doubt} {told}".lstrip()) if rms.get(cause.joint, 0.0) > cause.rms else cause
         for cause in found
     ]
-
-
-def _told(found: Sequence[FoundCause]) -> list[FoundCause]:
-    """Those that are part of the story."""
-    return [cause for cause in found if not cause.minor]
-
-
-def _further(causes: Sequence[FoundCause]) -> str:
-    """What a headline doesn't name, by family: where there is more of it."""
-    if not causes:
-        return ""
-    places: dict[str, list[str]] = {}
-    for cause in causes:
-        places.setdefault(cause.family, []).append(cause.location)
-    kinds = {UNKNOWN: "torque without a known law"}
-    told = [f"{kinds.get(family, family)} ({', '.join(dict.fromkeys(where))})" for family, where in places.items()]
-    count = f"{spelled(len(causes))} more cause{'s' if len(causes) > 1 else ''}"
-    return f"{capitalised(count)}: {', '.join(told)}{_worth(sum(c.share for c in causes))}. "
-
-
-def _worth(share: float, of_what: str = "") -> str:
-    """A share in a sentence; of what only hides part of what others do, nothing."""
-    return f" – {percent(share)}{of_what}" if share > 0 else ""

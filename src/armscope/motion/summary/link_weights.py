@@ -8,7 +8,6 @@ and where the link is rather heavier as a whole than off in some other way.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from armscope.inference.constants import PRIORS
@@ -85,33 +84,32 @@ def with_links_that_weigh(selected: SelectedCauses) -> SelectedCauses:
     return replace(selected, best=max([beside, *others], key=by_posterior))
 
 
-def told_links(selected: SelectedCauses, carried: Mapping[str, float]) -> tuple[SelectedCauses, Sureness]:
+def told_links(selected: SelectedCauses) -> tuple[SelectedCauses, Sureness]:
     """The selection with names for gains beyond what is stated, and for those links out of all whose weight is told.
 
     Args:
         selected: as of `tenable`.
-        carried: stated payload of runs, kg.
 
     Returns:
         It, and how far it can be trusted. A link whose number is not determined, by gains that nobody has measured
         say, or that would weigh less than nothing, has no name.
     """
-    selected = _without_what_may_be_nothing(with_gains_that_stand_out(selected, carried), carried)
+    selected = _without_what_may_be_nothing(with_gains_that_stand_out(selected))
     named = with_links_that_weigh(selected)
-    sure = sureness(named, carried)
+    sure = sureness(named)
     added = named.best.candidates - selected.best.candidates
     loose = [n for n in added if no_link(named, n) or not determined(cause_parameters(named, n, sure.factor))]
     if not loose:
         return named, sure
     kept = tuple(effect for effect in named.best.chosen if effect.candidate not in loose)
     named = replace(named, best=Search.on(named.problem).evaluated(kept, named.best))
-    return named, sureness(named, carried)
+    return named, sureness(named)
 
 
-def _without_what_may_be_nothing(selected: SelectedCauses, carried: Mapping[str, float]) -> SelectedCauses:
+def _without_what_may_be_nothing(selected: SelectedCauses) -> SelectedCauses:
     """The selection without names of masses that are no likelier than none and whose intervals hold zero."""
     unsure = [n for n in selected.best.candidates if as_likely_without(selected, n)]
-    factor = sureness(selected, carried).factor if unsure else None
+    factor = sureness(selected).factor if unsure else None
     nothing = [n for n in unsure if factor is not None and may_be_nothing(cause_parameters(selected, n, factor))]
     if not nothing:
         return selected

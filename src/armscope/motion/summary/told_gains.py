@@ -8,7 +8,7 @@ name is told by the factor that it asks for.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -35,14 +35,13 @@ FITTED_GAINS = "fitted gains"
 """Kind of the notice that gains without a name are part of the model."""
 
 
-def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, float]) -> SelectedCauses:
+def with_gains_that_stand_out(selected: SelectedCauses) -> SelectedCauses:
     """The selection with names for gains beyond their stated uncertainty, or clearly off where none is stated.
 
     Where masses are off, too, without a name, a gain of no stated uncertainty is fitted along: it has no name.
 
     Args:
         selected: a selection, all of whose names can stand.
-        carried: stated payload of runs, kg.
 
     Returns:
         The same fit, with these gains free; itself where none stands out.
@@ -58,7 +57,7 @@ def with_gains_that_stand_out(selected: SelectedCauses, carried: Mapping[str, fl
     freed, named = _freed(selected, far | unstated)
     if not unstated & named.keys():
         return freed
-    sure = sureness(freed, carried)
+    sure = sureness(freed)
     asked = unstated & named.keys()
     loose = {j for j in asked if not determined(cause_parameters(freed, named[j], sure.factor))}
     return _freed(selected, (far | unstated) - loose)[0] if loose else freed

@@ -16,7 +16,7 @@ from armscope.motion.library.catalogue import cause_named
 from armscope.motion.library.layout import CAUSES_OF_OWN
 from armscope.motion.summary.constants import HELD_OUT
 from armscope.motion.summary.entering import Entered
-from armscope.motion.summary.judgement import MASSES_OFF
+from armscope.motion.summary.headline import MASSES_OFF
 from armscope.motion.summary.lasting import LASTS
 from armscope.motion.verdict import FoundCause
 from armscope.report.html import significant
