@@ -139,7 +139,13 @@ def _of_extent(run: RunContents) -> list[Suspicion]:
         return [Suspicion("hint", statement, "They tell the noise, and nothing about the arm.")]
     if run.rows > 3 and run.flatness < TABLE.flat:  # three points always do
         statement = f"all points{_of(run.name)} lie in one plane"
-        return [Suspicion("hint", statement, "Where that is not how the arm moves, spread the poses: they tell little of what acts across it.")]
+        return [
+            Suspicion(
+                "hint",
+                statement,
+                "Where that is not how the arm moves, spread the poses: they tell little of what acts across it.",
+            )
+        ]
     return []
 
 
