@@ -28,6 +28,7 @@ from armscope.physics.scene import Posture
 from armscope.verdict.constants import REPAIRS
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
+from armscope.verdict.moments import since
 from armscope.verdict.wording import SMALL, main_and_minor
 
 
@@ -235,8 +236,8 @@ def contributions(verdict: Diagnosis) -> Contributions:
         fitted, worded = ground.moved_by(its), ground.as_worded(effect, its)
         zero = ground.own_zero(effect, its)
         if worded is None:
-            return Repair(effect.title, (effect,), its, fitted, zero)
-        return Repair(effect.title, (effect,), its, worded, zero, fitted - worded)
+            return Repair(effect.title + since(effect), (effect,), its, fitted, zero)
+        return Repair(effect.title + since(effect), (effect,), its, worded, zero, fitted - worded)
 
     causes = tuple(alone(effect) for effect in main if id(effect) in apart)
     rest = [effect for effect in (*main, *minor) if parts[id(effect)] and id(effect) not in apart]

@@ -90,7 +90,7 @@ def _whole_effects(model: FittedModel, recordings: Recordings) -> list[tuple[str
     """(location, driver, terms) of the library's effects that are weighed as a whole.
 
     Those elsewhere than at a joint or the base, and those with a column of their own; what follows one driver at one
-    place (a link that grows, and that bows, with temperature) together. Of an effect's variants the first of the widest.
+    place (a link that grows, and that bows, with temperature) together; the widest of an effect's variants.
     """
     at: dict[tuple[str, str], dict[str, tuple[Term, ...]]] = {}
     for effect in effects():

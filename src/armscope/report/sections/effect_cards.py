@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, INTERVAL, Alternative, FoundEffect, Parameter
+from armscope.verdict.moments import since
 from armscope.verdict.told_causes import of_what_calibration_leaves
 from armscope.verdict.untold import absorbed, implausible
 from armscope.verdict.wording import (
@@ -116,18 +117,7 @@ def title_of(effect: FoundEffect) -> str:
     """The name at the level that the evidence allows; a free curve is told by what it follows."""
     if effect.nameless and effect.named_as == "effect" and effect.curve is not None:
         return f"{effect.location}: unexplained curve that follows the {effect.driver}"
-    return (plain(effect.title) or effect_in_words(effect.effect, effect.location)) + _since(effect)
-
-
-def _since(effect: FoundEffect) -> str:
-    """From when on a jump holds: several of one kind differ in nothing else."""
-    known = effect_named(effect.effect)
-    moment = next((p for p in effect.parameters if p.name in ("row", "time")), None)
-    if moment is None or known is None or not known.jumps:
-        return ""
-    run = effect.driver.partition(", run ")[2]
-    at = f"row {moment.value:g}" if moment.name == "row" else f"{moment.value:g} s"
-    return f", from {at} of run {run}" if run else f", from {at}"
+    return (plain(effect.title) or effect_in_words(effect.effect, effect.location)) + since(effect)
 
 
 def reading_of(parameter: Parameter, effect: FoundEffect) -> Reading:
@@ -153,7 +143,7 @@ def what_kind(effect: FoundEffect) -> str:
     if effect.nameless:
         return "no known physics"
     name = effect_in_words(effect.effect, effect.location)
-    return effect.family if title_of(effect) == name else f"{name} · {effect.family}"
+    return effect.family if title_of(effect).startswith(name) else f"{name} · {effect.family}"
 
 
 def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
