@@ -139,7 +139,9 @@ def test_each_motor_may_have_a_temperature_of_its_own(tmp_path: Path) -> None:
     mapping.write_text(yaml.safe_dump({"table": "motions", "columns": columns | {"payload": {"constant": 2}}}))
     report = import_recordings([tmp_path / "log.csv"], mapping, tmp_path / "motions.csv")
     assert report.columns[-3:] == ("payload_kg", "temperature1_c", "temperature2_c")
-    np.testing.assert_array_equal(read_motions(tmp_path / "motions.csv", 2).temperature, [[20, 30], [21, np.nan]])
+    written = pd.read_csv(tmp_path / "motions.csv")[["temperature1_c", "temperature2_c"]]
+    np.testing.assert_array_equal(written, [[20, 30], [21, np.nan]], "what was not recorded is not invented")
+    np.testing.assert_array_equal(read_motions(tmp_path / "motions.csv", 2).temperature, [[20, 30], [21, 30]])
     mapping.write_text(yaml.safe_dump({"table": "motions", "columns": columns | {"temperature": {"constant": 20}}}))
     with pytest.raises(InputError, match="one of the two"):
         load_any_mapping(mapping)

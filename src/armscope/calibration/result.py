@@ -159,7 +159,8 @@ def in_words(calibration: Calibration) -> str:
     lines += [f"doubtful: {doubt}" for doubt in calibration.doubts]
     if len(suspects := calibration.ids[calibration.suspects]):
         more = ", ..." if len(suspects) > CALIBRATING.suspects else ""
-        lines.append(f"{len(suspects)} rows look like bad shots: {', '.join(suspects[: CALIBRATING.suspects])}{more}")
+        look = "row looks like a bad shot" if len(suspects) == 1 else "rows look like bad shots"
+        lines.append(f"{len(suspects)} {look}: {', '.join(suspects[: CALIBRATING.suspects])}{more}")
     lines.append("fitted, with standard errors (of base frames: along and about the base's own axes):")
     lines += [_parameter(*row) for row in calibration.table.itertuples(index=False)]
     if calibration.held:

@@ -83,8 +83,9 @@ def _tell(choice: Choice, source: str, noise: float) -> None:
     from armscope.poses.body_words import surroundings_notes
 
     pool = choice.candidates
-    refused = ", ".join(f"{count} {reason}" for reason, count in pool.refused.items() if count)
-    print(f"chosen from {len(pool)} possible poses" + (f"; of {pool.drawn} drawn {refused}" if refused else ""))
+    refused = ", ".join(f"{reason} {count}" for reason, count in pool.refused.items() if count)
+    drawn = f"; of {pool.drawn} drawn were refused: {refused}" if refused else ""
+    print(f"chosen from {len(pool)} possible poses{drawn}")
     print(", ".join(f"{name} {value:.4g}" for name, value in choice.indices.items()))
     if choice.targets.hidden:
         print(f"not told apart from the others: {', '.join(choice.targets.hidden)}")

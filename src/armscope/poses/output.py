@@ -19,6 +19,10 @@ from armscope.poses.constants import BODY
 from armscope.poses.obstacles import thinned
 from armscope.recordings.columns import angle_columns
 
+UNITS = (
+    "of O1 to O5: each parameter is counted in a unit that moves the tool by 1 mm RMS over the candidates, tool points "
+    "in m; under parameters each has the unit that stands beside it"
+)
 FOLLOW_APPROACH = {"approach", "lost motion"}
 
 
@@ -59,7 +63,7 @@ def _content(choice: Choice, compared: pd.DataFrame | None, noise: float, noise_
         "criterion_is": SOURCES[choice.index],
         "effects": list(choice.effects),
         "indices": {name: {"value": value, "source": SOURCES[name]} for name, value in choice.indices.items()},
-        "units_of_parameters": "each such that it moves the tool by 1 mm RMS over the candidates; lengths in m",
+        "units_of_parameters": UNITS,
         "parameters": predicted_errors(choice, noise, {"chosen": choice.table}).to_dict("records"),
         "noise_mm": noise * 1e3,
         "noise_is": noise_source,
