@@ -80,22 +80,6 @@ def test_a_wide_change_of_sides_is_seen_at_its_joint_alone() -> None:
     np.testing.assert_array_equal(found[others], sharp_width(robot())[others])
 
 
-@pytest.mark.parametrize(
-    ("width", "law"), [(0.008, None), (0.015, None), (0.028, None), (0.008, falling), (0.015, falling)]
-)
-def test_a_change_of_sides_has_its_own_width_whatever_law_is_beside_it(width: float, law: Plant | None) -> None:
-    """Of widths twice as large each, the nearest left what has the shape of a law; with a law, none was seen."""
-
-    def turning_within(q: Array, dq: Array, ddq: Array, rigid: Array) -> Array:
-        extra = np.zeros_like(q) if law is None else law(q, dq, ddq, rigid) * np.abs(np.tanh(dq / width))
-        extra[:, JOINT] += COULOMB[JOINT] * (np.tanh(dq[:, JOINT] / width) - np.sign(dq[:, JOINT]))
-        return extra
-
-    found = widths(turning_within)
-    assert found is not None
-    assert found[JOINT] == pytest.approx(width, rel=0.2)
-
-
 @pytest.mark.parametrize("plant", [None, falling, bending], ids=["none", "falling", "bending"])
 def test_nothing_else_of_friction_over_speed_is_a_wide_change(plant: Plant | None) -> None:
     assert widths(plant) is None

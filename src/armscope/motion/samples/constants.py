@@ -107,16 +107,10 @@ class FilterRules(Constants):
         5.0, "that friction may change sides more sharply than within the width", "judgement: no filter shows more"
     )
     wider: tuple[float, ...] = constant(
-        (0.25, 0.5, 1.0, 2.0, 4.0, 8.0),
+        (2.0, 4.0, 8.0),
         "within which a joint's friction may change sides instead, where its motion says so",
-        "judgement: dry gears, grease and preloaded slides; wider is a curve of friction over speed",
+        "judgement: grease and preloaded slides; wider is a curve of friction over speed",
         unit="widths",
-    )
-    between_wider: tuple[float, ...] = constant(
-        (0.59, 0.71, 0.84, 1.19, 1.41, 1.68),
-        "about the best of these, that are tried then",
-        "derived: quarters of a step of `wider`",
-        unit="times",
     )
     blunter: float = constant(
         2.0, "that friction may change sides less sharply than within the chosen width", "derived: a step of `wider`"
