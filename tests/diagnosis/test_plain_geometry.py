@@ -21,6 +21,7 @@ from armscope.physics.uneven_bearing import uneven_bearings
 from armscope.recordings import Recordings
 from armscope.robot import Arm, load_arm
 from armscope.robot.library import nominal_file
+from armscope.verdict.corrections import corrected_rows, unsettled
 from tests.diagnosis.planted import Wanted, one_run, recorded
 from tests.physics.scenes import full_table
 
@@ -138,6 +139,35 @@ def test_what_rows_tell_from_every_link_keeps_its_name(alike: float) -> None:
 def test_a_drive_turns_a_joint_and_is_no_links_error() -> None:
     problem = problem_where("joint_compliance", 0.9999)
     assert as_plain_geometry(Search.on(problem), named_alone(problem)).candidates == {EFFECT}
+
+
+@pytest.mark.parametrize(
+    ("wanted", "names"),
+    [
+        (
+            {("link_geometry", "link 4"): [0.0, 5e-4, 0.0], ("joint_offset", "joint 5"): [-4e-4]},
+            {("link_geometry", "link 4"), ("joint_offset", "joint 5")},
+        ),
+        ({("axis_wobble", "joint 4"): [5e-4, 0.0, 0.0, 0.0]}, {("axis_wobble", "joint 4")}),
+    ],
+)
+def test_only_a_tilt_that_turns_with_its_joint_is_a_twisted_link(wanted: Wanted, names: set[tuple[str, str]]) -> None:
+    """A tilt in one plane is a bearing's. Which of the others it is stays open, and need not be found out."""
+    iiwa = load_arm(nominal_file("iiwa7"))
+    table = recorded(iiwa, without_payload(iiwa, 140, 3), wanted, NOISE_MM, 4)
+    verdict = diagnose(iiwa, table, QUICK)
+    assert {(e.effect, e.location) for e in verdict.effects} == names
+    link = next((e for e in verdict.effects if e.effect == "link_geometry"), None)
+    if link is None:
+        return
+    wobbles = [rival for rival in link.alternatives if rival.effect == "axis_wobble"]
+    assert [(rival.location, rival.same_motion) for rival in wobbles] == [("joint 4", True)]
+    assert link.named_as == "region"
+    assert link.same_cure
+    rows = corrected_rows(verdict)
+    assert rows is not None
+    assert rows.set_index("row").loc[4, "correction_alpha_deg"] == pytest.approx(np.degrees(5e-4), rel=0.1)
+    assert not unsettled(verdict)
 
 
 def test_a_zero_counts_beside_two_that_follow_its_angle_and_not_beside_one() -> None:

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from armscope.physics.registry import effect_named
-from armscope.verdict.doubts import NEVER_AGAIN, doubt_of, unless_confirmed
+from armscope.verdict.doubts import NEVER_AGAIN, alike_in_words, doubt_of, unless_confirmed
 from armscope.verdict.effects import Alternative, Parameter
 from armscope.verdict.family_cures import CONFIRM_FIRST
 from tests.report import verdicts
@@ -84,3 +84,17 @@ def test_where_nothing_else_is_known_no_choice_is_offered() -> None:
     assert doubt.instruction.startswith(
         "Confirm it first: that something gives way under load around joint 2 is sure, its name is not."
     )
+
+
+def test_what_moves_the_tool_alike_in_every_pose_need_not_be_told_apart() -> None:
+    """To correct the link waited for a dial gauge that was to tell it from a wobble that turns with its joint."""
+    wobble = Alternative("axis_wobble", "joint 4", "geometric", 1.0, "angle of joint 4", 0.5, None, same_motion=True)
+    link = verdicts.found("link_geometry", "link 4", named_as="region", title="a or b", alternatives=(wobble,))
+    assert doubt_of(link) is None
+    assert unless_confirmed(link) == ""
+    assert alike_in_words(link).startswith("It may be axis wobble at joint 4: that moves the tool alike")
+    other = replace(wobble, effect="bearing_compliance", same_motion=False)
+    beside = replace(link, alternatives=(wobble, other))
+    assert not beside.same_cure
+    assert doubt_of(beside), "what another cure undoes is to be told apart"
+    assert alike_in_words(replace(link, alternatives=(other,))) == ""

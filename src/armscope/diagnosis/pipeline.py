@@ -43,6 +43,8 @@ from armscope.verdict.effects import INTERVAL, FoundEffect
 from armscope.verdict.schema import Notice
 from armscope.verdict.wording import effect_in_words
 
+TOO_MUCH = " A controller that makes up for too much of the load looks the same, and is corrected by the same commands."
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -229,7 +231,7 @@ def _leaning(found: GravityEstimate, beaten: FoundEffect | None) -> tuple[Arm, l
         f"The arm gives way to gravity that leans by {np.degrees(found.angle):.1f} degrees from where it is stated; "
         f"along the stated one {name} would be named, and the rows speak against that. The estimated direction was "
         "used: see whether the base stands level, and how it is mounted; level it, or state gravity_m_s2, before "
-        "anything else is changed."
+        f"anything else is changed. Loads told below are along it.{TOO_MUCH * (beaten is None)}"
     )
     return found.arm, [Notice("gravity", text), _estimated(found)]
 

@@ -81,6 +81,8 @@ def _settled(verdict: Diagnosis) -> list[FoundEffect]:
 def _is_open(effect: FoundEffect, verdict: Diagnosis) -> bool:
     """Whether an effect is but one reading: without a name, or with one that the poses to measure next ask about."""
     poses = verdict.next_poses
+    if effect.same_cure:
+        return False
     return effect.named_as != "effect" or (poses is not None and poses.ask_about(effect))
 
 

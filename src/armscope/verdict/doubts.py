@@ -54,7 +54,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     Returns:
         What to say in place of the name.
     """
-    if effect.named_as == "effect":
+    if effect.named_as == "effect" or effect.same_cure:
         return None
     rivals = _rivals(effect)
     readings: list[FoundEffect | Alternative] = [effect, *rivals]
@@ -81,15 +81,25 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
 
 def unless_confirmed(effect: FoundEffect) -> str:
     """What a named cause could be, too, if the test at the arm does not show it; "" where all else is excluded."""
-    near = [_words(each) for each in effect.alternatives if each.excluded is False][: WORDS.rivals]
     if effect.named_as != "effect":
         return ""
+    near = [_words(each) for each in effect.alternatives if each.excluded is False and not each.same_motion]
+    near = near[: WORDS.rivals]
     if near:
         return f"If that does not show it, change nothing here: it could also be {enumerated(near, 'or')}."
     if effect.inclusion is not None and effect.rarely_chosen:
         often = f"{100 * effect.inclusion:.0f} % of the tables"
         return f"Change nothing here before that shows it: of the same rows drawn anew, only {often} have this name."
     return ""
+
+
+def alike_in_words(effect: FoundEffect) -> str:
+    """What moves the tool as a cause does in every pose: it need not be found out which of them it is; "" for none."""
+    alike = [_words(each) for each in effect.alternatives if each.same_motion]
+    if not alike:
+        return ""
+    undone = "that moves the tool alike in every pose, and corrected rows and zeros undo it, too"
+    return f"It may be {enumerated(alike, 'or')}: {undone}."
 
 
 def _rivals(effect: FoundEffect) -> list[Alternative]:

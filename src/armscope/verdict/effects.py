@@ -64,6 +64,8 @@ class Alternative:
             number more has a gap, but is not told apart.
         excluded: whether rows that took no part speak against it at 95 % (model confidence set over blocks of rows);
             None where that was not asked.
+        same_motion: whether it moves the tool alike in every pose that the arm can take: what corrects the effect
+            corrects it, whichever of them it is.
     """
 
     effect: str
@@ -73,6 +75,7 @@ class Alternative:
     driver: str
     discriminability_nats: Number
     excluded: bool | None = None
+    same_motion: bool = False
 
     @property
     def nameless(self) -> bool:
@@ -158,6 +161,12 @@ class FoundEffect:
     def scatters(self) -> bool:
         """Whether it is a joint that stands elsewhere from row to row, which no model foretells."""
         return any(p.name == "scatter" for p in self.parameters)
+
+    @property
+    def same_cure(self) -> bool:
+        """Whether all that rows do not tell from it is corrected by the same: its name is open, its cure is not."""
+        near = [each for each in self.alternatives if each.discriminability_nats < INDISTINGUISHABLE_NATS]
+        return bool(near) and all(each.same_motion for each in near)
 
     @property
     def rarely_chosen(self) -> bool:

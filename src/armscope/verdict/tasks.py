@@ -21,13 +21,13 @@ from armscope.verdict.bars import bars_set_right
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
 from armscope.verdict.corrections import corrected_origin, place_and_angles
-from armscope.verdict.doubts import OPEN, Doubt, doubt_of, unless_confirmed
+from armscope.verdict.doubts import OPEN, Doubt, alike_in_words, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.motion_in_words import correction_in_words, motion_in_words
 from armscope.verdict.payload_place import instruction_of
-from armscope.verdict.sentences import phrase
+from armscope.verdict.sentences import exact_phrase, phrase
 from armscope.verdict.untold import untold
 from armscope.verdict.wording import capitalised, half_interval, read_parameter
 
@@ -46,6 +46,7 @@ class Task:
         instruction, cure: what to do; and the rule by which it is commanded away.
         confirm: how to confirm it first.
         unless: what it could be if that does not confirm it; "" where nothing else is left.
+        alike: what it may be as well without any other cure; "" where there is nothing such.
         alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
         only_after: it pays only once all before it is done: alone it would make the error larger.
         instead: it stands in place of all before it, and holds them.
@@ -64,6 +65,7 @@ class Task:
     cure: str
     confirm: str
     unless: str = ""
+    alike: str = ""
     alone_mm: float = math.nan
     then_mm: float = math.nan
     only_after: bool = False
@@ -132,7 +134,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
     instruction = instruction_of(effect, scene.arm, known.cure.instruction.format(**words)) if known else ""
     rule = (known.cure.rule if known else effect.cure).replace("`", "")
     task = Task(
-        what=capitalised(phrase(effect)),
+        what=capitalised(exact_phrase(effect) if effect.same_cure else phrase(effect)),
         place=effect.location,
         change="joint origin" if in_urdf else known.cure.change if known else "",
         motion=""
@@ -143,6 +145,7 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
         + _beyond_the_rule(scene.arm, cause, told),
         confirm=effect.confirm,
         unless=unless_confirmed(effect),
+        alike=alike_in_words(effect) if effect.same_cure or effect.named_as == "effect" else "",
         members=(effect.as_member,),
         family=effect.family,
         requires=known.requires if known else "",

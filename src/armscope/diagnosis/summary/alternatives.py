@@ -16,6 +16,7 @@ from armscope.diagnosis.naming import named
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.laws_of_one_joint import curve_of_waves, laws_beside_zero, stand_together
 from armscope.diagnosis.summary.rivals import Rival
+from armscope.diagnosis.summary.turning_tilts import is_a_turned_link
 from armscope.inference.confidence_set import confidence_set
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.inference.evidence import Hypothesis
@@ -23,9 +24,12 @@ from armscope.inference.model_space import Candidate
 from armscope.inference.normal_equations import weighted_total
 from armscope.inference.problem import SelectedEffect
 from armscope.inference.search import Search
+from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
 from armscope.physics.wobble import RUNS_OUT
 from armscope.verdict.effects import Alternative, Specific
 from armscope.verdict.wording import effect_in_words, places_in_words
+
+CONSTANT_GEOMETRY = (JOINT_OFFSET.name, LINK_GEOMETRY.name)
 
 
 def alternatives(search: Search, best: Hypothesis) -> dict[int, list[Rival]]:
@@ -70,6 +74,8 @@ def _of_one(search: Search, best: Hypothesis, number: int, refused: _Refused) ->
     if rest and not explained_anyway:
         alone = _in_place_of(search, best, number, [], 0.0, refused)
         rivals += [rival for rival in alone if not rival.candidate.is_curve]
+    if candidate.kind in CONSTANT_GEOMETRY:
+        rivals = [rival._replace(same_motion=is_a_turned_link(search.problem, rival)) for rival in rivals]
     nearest: dict[tuple[str, str], Rival] = {}
     for rival in sorted(rivals, key=lambda rival: rival.gap):
         nearest.setdefault(rival.candidate.key, rival)
@@ -185,7 +191,9 @@ def _held_out_errors(state: DiagnosisState, rivals: Sequence[Rival]) -> Array:
 def listed(found: Sequence[Rival], apart: Sequence[float]) -> tuple[Alternative, ...]:
     """Alternatives as a verdict lists them; ``apart``: the `discriminability` of each."""
     return tuple(
-        Alternative(c.kind, c.location, c.family, float(rival.gap), c.driver, float(nats), rival.excluded)
+        Alternative(
+            c.kind, c.location, c.family, float(rival.gap), c.driver, float(nats), rival.excluded, rival.same_motion
+        )
         for rival, c, nats in zip(found, (rival.candidate for rival in found), apart, strict=True)
     )
 

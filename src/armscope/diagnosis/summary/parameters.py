@@ -8,6 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import TELLING
+from armscope.diagnosis.summary.turning_tilts import ROUND, runs_round, sense_of_round
 from armscope.physics.effect import Part, Placed
 from armscope.physics.model import FittedModel
 from armscope.verdict.effects import Parameter
@@ -94,7 +95,7 @@ def _reading(placed: Placed, values: Array, covariance: Array) -> tuple[list[str
     if placed.parametrisation == "sine":
         names = ["amplitude", "phase", "direction", *["run_out"] * (len(placed.terms) > 4)]
         units = ["mm" if name == "run_out" else "rad" for name in names]
-        if not _runs_round(values, covariance):
+        if not runs_round(values, covariance):
             return names, units, _turning_wave
         del names[1], units[1]
         return names, units, _tilt_that_runs_round
@@ -132,23 +133,9 @@ def _tilt_that_runs_round(values: Array) -> Array:
     The longer half axis of an ellipse is too large for it: noise makes every circle an ellipse.
     """
     tilt, *shifts = values.reshape(-1, 4)
-    senses = _ROUND @ tilt
-    sense = int(np.argmax(np.linalg.norm(senses, axis=1)))
-    x, y = senses[sense]
-    return np.array([np.hypot(x, y), np.arctan2(y, x), *(1e3 * np.linalg.norm(_ROUND[sense] @ s) for s in shifts)])
-
-
-_ROUND = 0.5 * np.array([[[1, 0, 0, 1], [0, -1, 1, 0]], [[1, 0, 0, -1], [0, 1, 1, 0]]])
-"""(cosine, sine) about x and about y as (x, y) of what turns with the joint and of what turns against it."""
-
-
-def _runs_round(values: Array, covariance: Array) -> bool:
-    """Whether a tilt keeps its size as the joint turns: what turns the other way is nothing that rows show."""
-    parts = _ROUND @ values[:4]
-    sizes = np.linalg.norm(parts, axis=1)
-    larger, smaller = np.argsort(-sizes)
-    stderr = float(np.sqrt(np.trace(_ROUND[smaller] @ covariance[:4, :4] @ _ROUND[smaller].T) / 2))
-    return bool(sizes[smaller] < TELLING.runs_round * stderr < TELLING.runs_round_at_least * sizes[larger])
+    sense = sense_of_round(tilt)
+    x, y = ROUND[sense] @ tilt
+    return np.array([np.hypot(x, y), np.arctan2(y, x), *(1e3 * np.linalg.norm(ROUND[sense] @ s) for s in shifts)])
 
 
 def _spread(reading: Reading, values: Array, covariance: Array, circles: Array) -> Array:

@@ -20,6 +20,7 @@ class Rival(NamedTuple):
         held: columns that are zero in it, though a background has them.
         excluded: whether rows that took no part exclude it.
         spared: nats that the effect did not pay, as one cause with others: by these it is no farther.
+        same_motion: whether it moves the tool as the effect does in every pose that the arm can take.
     """
 
     gap: float
@@ -29,6 +30,7 @@ class Rival(NamedTuple):
     held: tuple[int, ...] = ()
     excluded: bool | None = None
     spared: float = 0.0
+    same_motion: bool = False
 
     def in_background_of(self, effect: Candidate) -> bool:
         """Whether an effect and this are two of the many that one background holds."""

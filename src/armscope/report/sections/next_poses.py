@@ -12,6 +12,7 @@ from armscope.report.sectioning import Section
 from armscope.report.sections.effects import findings
 from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import NextPoses
+from armscope.verdict.doubts import doubt_of
 from armscope.verdict.wording import main_and_minor, places_in_words, plain
 
 
@@ -19,7 +20,7 @@ def _context(subject: Subject) -> dict[str, Any]:
     poses = subject.verdict.next_poses
     unknown = list(dict.fromkeys(each.location for each in subject.verdict.effects if each.nameless))
     main, _ = main_and_minor(subject.verdict.effects)
-    left_open = [plain(each.title) for each in main if each.named_as != "effect" and each.alternatives]
+    left_open = [plain(each.title) for each in main if doubt_of(each) and each.alternatives]
     return {
         **findings(subject.verdict),
         "next_poses": None if poses is None else _next_poses(poses),
