@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from armscope.verdict.effects import Parameter
-from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.family_cures import cure_of_family, mended_together
 from tests.report import verdicts
 
 
@@ -65,3 +65,19 @@ def test_a_family_without_a_cure_of_its_own_tells_each_members() -> None:
     told = cure_of_family("instrument", [scale, loose], everywhere=False)
     assert scale.cure in told
     assert loose.cure in told
+
+
+@pytest.mark.parametrize(("effect", "family"), [("axis_wobble", "geometric"), ("zero_shift", "drift")])
+def test_what_no_calibration_mends_keeps_its_own_cure(effect: str, family: str) -> None:
+    """Two axes that wobble were to be mended by zeros and D-H rows, two zeros that slipped by fastening the base."""
+    pair = [verdicts.found(effect, f"joint {n}") for n in (1, 7)]
+    assert cure_of_family(family, pair, everywhere=False) == pair[0].cure
+    rows = [verdicts.found("joint_offset", f"joint {n}") for n in (1, 7)]
+    assert cure_of_family("geometric", rows, everywhere=False).startswith("Calibrate the geometry")
+
+
+def test_a_zero_that_jumped_is_not_fastened_with_the_base() -> None:
+    jumped = verdicts.found("zero_shift", "joint 2")
+    moved = verdicts.found("base_shift", "base")
+    assert mended_together(jumped) == "zero_shift"
+    assert mended_together(moved) == "drift"

@@ -57,3 +57,14 @@ def test_three_are_told() -> None:
     assert (told, rest) == (five[:3], five[3:])
     assert is_spread(ROWS)
     assert not is_spread(PLAY)
+
+
+def test_the_member_that_leads_is_not_credited_with_the_share_of_all() -> None:
+    """It was: "The zero of joint 5 is off by +22 mrad (also off: joint 6 and link 6) – 79 %"; the zero had 35 %."""
+    geometry = cause("geometric", 0.79, text="the zero of joint 5 is off by +22 mrad (also off: joint 6)")
+    assert with_share(geometry, first=True, alone=0.35).endswith(
+        "(also off: joint 6) – 35 % of the squared error, 79 % with the others"
+    )
+    assert with_share(geometry, first=False, alone=0.35).endswith("– 35 %, 79 % with the others")
+    assert with_share(geometry, first=False, alone=0.78).endswith("– 79 %"), "the others are next to nothing"
+    assert with_share(geometry, first=False, alone=-0.1).endswith("– 79 %"), "others cancel more than it has"

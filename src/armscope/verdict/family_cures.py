@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from armscope.physics.backgrounds import THERMAL
+from armscope.physics.backgrounds import GEOMETRIC, THERMAL
 from armscope.physics.thermal import BY_MODEL, KEPT_WARM
 from armscope.physics.unexplained_turn import ELSEWHERE
+from armscope.physics.zero_shift import ZERO_SHIFT
+from armscope.verdict.calibrated import mended_by_calibration
 from armscope.verdict.effects import FoundEffect
+
+PAYLOAD = "payload"
 
 _CURES = {
     "geometric": "Calibrate the geometry: measure once more, and put the zeros and D-H rows that `armscope calibrate` "
@@ -58,6 +62,18 @@ def warms(family: str, worst: str) -> bool:
     return family == "drift" and worst.startswith("link")
 
 
+def mended_together(effect: FoundEffect) -> str:
+    """What is mended in one go: a family; but a payload is weighed, whatever gives way under it.
+
+    So is what geometry has beside zeros and rows: no calibration mends an axis that wobbles, or a linkage's bars. A
+    zero that jumped is set, not fastened as base and instrument are.
+    """
+    apart = effect.family == GEOMETRIC and not mended_by_calibration(effect)
+    if apart or effect.effect == ZERO_SHIFT.name:
+        return effect.effect
+    return effect.location if effect.location == PAYLOAD else effect.family
+
+
 def cure_of_family(
     family: str, members: Sequence[FoundEffect], everywhere: bool, worst: str = "", growth: str = ""
 ) -> str:
@@ -84,5 +100,6 @@ def cure_of_family(
         return f"{SCALE_ALL} {growth} Or {BY_MODEL}.{each_other} {KEPT_WARM}"
     if members and all(each.nameless and each.driver.startswith(ELSEWHERE) for each in members):
         return members[0].cure  # nothing of these is in a table over the joint's own angle
-    mend = _CURES.get(family, " ".join(dict.fromkeys(each.cure for each in members)))
+    together = mended_together(members[0]) if members else family
+    mend = _CURES.get(together, " ".join(dict.fromkeys(each.cure for each in members)))
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend

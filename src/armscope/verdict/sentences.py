@@ -61,7 +61,7 @@ def headline(verdict: Diagnosis) -> str:
     if not main and not verdict.causes:
         return f"{_no_cause(verdict, minor)} {capitalised(_remainder(verdict))}."
     told, rest = told_and_rest(verdict.causes or _one_by_one(verdict))
-    clauses = [with_share(c, first=c is told[0]) for c in told]
+    clauses = [with_share(c, c is told[0], _share_of_leading(c, verdict.effects)) for c in told]
     first = max(1, sum(c.share > WORDS.told_first for c in told))
     rest_told = [*clauses[first:], *_smaller(rest), *_unsure(verdict), _remainder(verdict)]
     return f"{capitalised('; '.join(clauses[:first]))}. {capitalised('; '.join(rest_told))}."
@@ -105,6 +105,15 @@ def _leading(members: Sequence[FoundEffect]) -> Sequence[FoundEffect]:
     near = [e for e in members if e.share > WORDS.about_as_much * largest.share]
     sure = [e for e in near if e.named_as == "effect" and e.evidence_nats > largest.evidence_nats]
     return sure[:1] or members[:1]
+
+
+def _share_of_leading(cause: Cause, effects: Sequence[FoundEffect]) -> float:
+    """What the member alone is worth (0 ... 1) that a cause's clause begins with; NaN of one that tells no member."""
+    members = [effect for effect in effects if effect.as_member in cause.members]
+    led = [effect for effect in members if cause.text.startswith(phrase(effect))]
+    if not led:
+        return math.nan
+    return sum(effect.share for effect in [led[0], *_goes_on(led[0], members)])
 
 
 def _goes_on(told: FoundEffect, members: Sequence[FoundEffect]) -> list[FoundEffect]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from armscope.verdict.calibrated import stands_out
@@ -13,12 +14,23 @@ WORST = ", most at "
 MOST_OF_ALL = ", most of all: "
 
 
-def with_share(cause: Cause, first: bool) -> str:
-    """A cause and its shares; those of a whole family stand before its largest member, which has only a part."""
+def with_share(cause: Cause, first: bool, alone: float = math.nan) -> str:
+    """A cause and its shares; those of a whole family stand before its largest member, which has only a part.
+
+    Args:
+        cause: to be told.
+        first: whether it is the first of a headline, which says what the shares are of.
+        alone: the share of the member that stands before the brackets (0 ... 1), where others belong to the cause.
+
+    Returns:
+        The clause.
+    """
     family, worst, member = cause.text.partition(MOST_OF_ALL)
     share = f"{percent(cause.share)}{' of the squared error' * first}"
     if cause.share > WORDS.more_than_all:
         share = "more than the whole squared error, as others cancel a part of it"
+    elif not worst and 0 < alone < cause.share - WORDS.told_first:
+        share = f"{percent(alone)}{' of the squared error' * first}, {percent(cause.share)} with the others"
     if of_rest := of_what_calibration_leaves(cause):
         share = of_rest if cause.share < WORDS.told_at_all else f"{share} ({of_rest})"
     return f"{family} – {share}{worst}{member}"

@@ -5,10 +5,8 @@ from __future__ import annotations
 import pytest
 
 from armscope.diagnosis import Settings, diagnose
-from armscope.diagnosis.summary.causes import _group
 from armscope.verdict.schema import Verdict
 from tests.diagnosis.planted import planted
-from tests.report import verdicts
 
 QUICK = Settings(resamples=0, cross_validation=False)
 
@@ -62,10 +60,3 @@ def test_what_no_calibration_mends_is_a_cause_of_its_own() -> None:
     assert wobble.family == "geometric"
     assert "calibrate" not in wobble.cure
     assert not wobble.everywhere
-
-
-def test_a_zero_that_jumped_is_not_fastened_with_the_base() -> None:
-    jumped = verdicts.found("zero_shift", "joint 2")
-    moved = verdicts.found("base_shift", "base")
-    assert _group(jumped) == "zero_shift"
-    assert _group(moved) == "drift"

@@ -12,6 +12,7 @@ from armscope.diagnosis.summary.parameters import beyond_plausible, parameters, 
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Part
 from armscope.physics.geometric import LINK_GEOMETRY
+from armscope.physics.loose_target import HOLDER_SAG
 from armscope.physics.wobble import AXIS_WOBBLE
 from tests.diagnosis.planted import planted
 from tests.physics.scenes import arm_named, full_table
@@ -48,6 +49,16 @@ def test_what_no_arm_shows_is_questioned() -> None:
     assert "a of link 3 by +24 mm" in said.text
     assert beyond_plausible([Part(placed, 0.1 * values)]) is None
     assert replace(said, text="").kind == "implausible"
+    assert "drawing" in said.text
+
+
+def test_a_holder_that_bends_too_far_asks_for_no_drawing() -> None:
+    """Seen on a real arm: a target's holder sagged by 1.6 mm, and the page asked for another convention of rows."""
+    sag = next(iter(HOLDER_SAG.place(arm_named("six-axis"), full_table(arm_named("six-axis"), 30, 1))))
+    said = beyond_plausible([Part(sag, np.array([5 * term.plausible for term in sag.terms]))])
+    assert said is not None
+    assert "drawing" not in said.text
+    assert "Measure it by itself first" in said.text
 
 
 @pytest.mark.parametrize("against", [1.0, -1.0])

@@ -14,15 +14,12 @@ from armscope.core.location import Location
 from armscope.diagnosis.held_out_worth import held_out_gains, without_members
 from armscope.diagnosis.state import DiagnosisState
 from armscope.inference.search import Search
-from armscope.physics.backgrounds import FAMILIES, GEOMETRIC, MENDED
-from armscope.physics.zero_shift import ZERO_SHIFT
-from armscope.verdict.calibrated import mended_by_calibration
+from armscope.physics.backgrounds import FAMILIES, MENDED
 from armscope.verdict.effects import Cause, CauseLevel, FoundEffect
-from armscope.verdict.family_cures import cure_of_family
+from armscope.verdict.family_cures import cure_of_family, mended_together
 from armscope.verdict.schema import Background
 from armscope.verdict.sentences import cause_in_words
 
-PAYLOAD = "payload"
 EVERYWHERE = "arm"
 """The place of what is so in all joints and links."""
 
@@ -49,10 +46,10 @@ def causes(
     members: dict[str, list[FoundEffect]] = {}
     candidates: dict[str, list[int]] = {}
     for candidate, effect in named.items():
-        members.setdefault(_group(effect), []).append(effect)
-        candidates.setdefault(_group(effect), []).append(candidate)
+        members.setdefault(mended_together(effect), []).append(effect)
+        candidates.setdefault(mended_together(effect), []).append(candidate)
     for effect in others:
-        members.setdefault(_group(effect), []).append(effect)
+        members.setdefault(mended_together(effect), []).append(effect)
     everywhere = {family.family: family for family in background if family.present and family.family in MENDED}
     families = [*members, *(family for family in everywhere if family not in members)]
     readings = [
@@ -70,17 +67,6 @@ def causes(
         for family, gain in zip(families, gains, strict=True)
     ]
     return tuple(sorted(found, key=lambda cause: -cause.share))
-
-
-def _group(effect: FoundEffect) -> str:
-    """What is mended together: a family; but a payload is weighed, whatever gives way under it.
-
-    So is what geometry has beside zeros and rows: no calibration mends an axis that wobbles, or a linkage's bars.
-    """
-    apart = effect.family == GEOMETRIC and not mended_by_calibration(effect)
-    if apart or effect.effect == ZERO_SHIFT.name:  # a zero that jumped is set, not fastened as base and instrument are
-        return effect.effect
-    return effect.location if effect.location == PAYLOAD else effect.family
 
 
 def _cause(

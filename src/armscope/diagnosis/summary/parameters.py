@@ -9,6 +9,7 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.diagnosis.summary.turning_tilts import ROUND, runs_round, sense_of_round
+from armscope.physics.backgrounds import GEOMETRIC
 from armscope.physics.effect import Part, Placed
 from armscope.physics.model import FittedModel
 from armscope.verdict.effects import Parameter
@@ -45,14 +46,16 @@ def parameters(placed: Placed, values: Array, covariance: Array) -> tuple[Parame
 
 def beyond_plausible(parts: Sequence[Part]) -> Notice | None:
     """What to say where a value is larger than real arms show; None where none is."""
-    beyond = [
-        plain(f"{term.name} of {part.placed.location} by {value / term.si:+.3g} {term.unit}")
-        for part in parts
-        for term, value in part.implausible
-    ]
+    beyond = [(part, term, value) for part in parts for term, value in part.implausible]
     if not beyond:
         return None
-    listed = "; ".join(beyond[: TELLING.implausible_values])
+    listed = "; ".join(
+        plain(f"{term.name} of {part.placed.location} by {value / term.si:+.3g} {term.unit}")
+        for part, term, value in beyond[: TELLING.implausible_values]
+    )
+    if all(part.placed.effect.family != GEOMETRIC for part, _, _ in beyond):
+        text = f"Larger than arms show: {listed}. Measure it by itself first: it may stand for something else."
+        return Notice("implausible", text)
     text = (
         f"Larger than arms show that were built to their drawing: {listed}. Compare robot.yaml with the drawing first: "
         "is this another model of the arm, another convention of its rows, a number on the next row, or a wrong unit?"
