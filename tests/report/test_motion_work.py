@@ -14,7 +14,7 @@ from armscope.motion.summary.headline import MASSES_OFF
 from armscope.motion.summary.lasting import LASTS
 from armscope.motion.verdict import UnexplainedTorque
 from armscope.report.pages.motion import write_motion_report
-from armscope.report.sections.motion_work import error_in_words, pays, where_it_shows
+from armscope.report.sections.motion_work import error_in_words, paid_later, pays, where_it_shows
 from tests.motion.moving import COULOMB, ROBOT, ROTOR, VISCOUS, moved, robot
 
 
@@ -95,3 +95,14 @@ def test_what_lasts_comes_before_all_steps(tmp_path: Path) -> None:
     order = order_of(replace(found, verdict=replace(found.verdict, unexplained=lasts)), tmp_path)
     assert f"First look there: {lasts.description}." in order
     assert order.index("First look there") < order.index("Friction and rotors of every joint")
+
+
+def test_a_step_that_leaves_no_less_says_with_which_it_pays() -> None:
+    """Seen: "12 % after this", then "17 % after 1 to 2, 17 % after 1 to 3, 6.8 % after 1 to 4"."""
+    assert paid_later(0.12, [0.17, 0.17, 0.068, 0.04], first=2) == [
+        "; it pays with step 4: 6.8 %",
+        "; it pays with step 4: 6.8 %",
+        "",
+        "",
+    ]
+    assert paid_later(0.12, [0.1, 0.1, 0.11], first=1) == ["", "", ""], "what never pays promises nothing"

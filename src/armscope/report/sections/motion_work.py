@@ -35,7 +35,7 @@ IN_FULL = 3
 class MotionTask:
     """One cause's line: who does what, what to do, and the error of the torque once it and all before it are done.
 
-    ``shows`` is where that shows, if it hardly does in all torque together.
+    ``shows`` is where that shows, if it hardly does in all torque together, and with which later step it pays.
     """
 
     said: str
@@ -54,6 +54,8 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
         Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
     """
     verdict = subject.verdict
+    held_out = verdict.held_out
+    to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
     background, with_masses, *after = subject.found.entered
     expected_after = {cause.title: step.whole for cause, step in zip(verdict.effects, after, strict=True)}
     steps = zip(verdict.effects, (with_masses, *after), after, strict=False)
@@ -66,19 +68,22 @@ def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
     apart = along and not any(_is_in_bodies(each) for each in told)
     apart = apart and bool(told or subject.gains_fitted or MASSES_OFF in verdict.headline)
     apart = apart and (not told or pays(*(step.held_out for step in verdict.waterfall[:2])))
+    first = int(to_enter) + bool(apart) + 1
+    reached = with_masses.whole if apart else background.whole if to_enter else held_out.stated
+    later = paid_later(reached, [expected_after[cause.title] for cause in told], first)
     tasks = []
-    for number, cause in enumerate(told, start=1):
+    for number, (cause, paid) in enumerate(zip(told, later, strict=True), start=1):
         card = motion_card(cause, number)
         rivals = tuple(other.name for other in card.alternatives if other.too_close)
         expected = error_in_words(expected_after[cause.title])
         too = _along_too(subject, cause) if along and not apart and number == 1 else ""
         cure = f"{card.cure} {too}".rstrip()
-        tasks.append(MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected, most_at[cause.title]))
-    held_out = verdict.held_out
-    to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
+        tasks.append(
+            MotionTask(card.said, card.doubt, rivals, card.confirm, cure, expected, most_at[cause.title] + paid)
+        )
     return {
         "to_enter": to_enter,
-        "first": int(to_enter) + bool(apart) + 1,
+        "first": first,
         "tasks": tasks[:IN_FULL],
         "more": tasks[IN_FULL:],
         "separate": separating_command(subject) if any(task.rivals for task in tasks) else "",
@@ -116,6 +121,28 @@ def where_it_shows(before: Entered, after: Entered) -> str:
         return ""
     then, now = (error_in_words(each.by_joint[joint]) for each in (after, before))
     return f" (joint {joint + 1} alone: {now} before, {then} then)"
+
+
+def paid_later(reached: float, after: Sequence[float], first: int) -> list[str]:
+    """Of each step that leaves no less than was reached before it: with which later step it pays, and what is left.
+
+    Args:
+        reached: error before the first step, relative to the torque.
+        after: (k,) errors once each step and all before it are done.
+        first: number of the first step.
+
+    Returns:
+        Words behind each step's error; nothing where it pays by itself, or never does.
+    """
+    told = []
+    for number, error in enumerate(after):
+        then = next((n for n in range(number + 1, len(after)) if pays(reached, after[n])), None)
+        alone = pays(reached, error)
+        told.append(
+            "" if alone or then is None else f"; it pays with step {first + then}: {error_in_words(after[then])}"
+        )
+        reached = min(reached, error)
+    return told
 
 
 def pays(before: float, after: float) -> bool:
