@@ -47,9 +47,10 @@ def _slipping(fitted: Fitted) -> str:
     steps = "step of the torque that the model has" if of_torque else "step of the position"
     low = f", low-passed at {fitted.of_law[0]:.3g} Hz but for its dry friction" if of_torque else ""
     return (
-        f"{CURVES} has {len(fitted.parameters)} stops for {fitted.place}. To its torque add the sum of torque × s over "
-        f"them: from sample to sample the s of each changes by the {steps}{low}, over its `at`, and is cut off at "
-        "−1 and 1; at first it is 1 with the sign of the first step."
+        f"{CURVES} has {len(fitted.parameters)} rows of shape `stop` for {fitted.place}, each with its `at` and "
+        f"`torque`. Keep a number s for each: from sample to sample it grows by the {steps}{low} divided by `at`, and "
+        "is held between −1 and 1; it starts as 1 with the sign of the first step. Add the sum of all `torque` × s to "
+        "the torque of the joint."
     )
 
 
