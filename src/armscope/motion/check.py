@@ -14,6 +14,7 @@ from armscope.motion.samples.rails import Rails, rails
 from armscope.motion.samples.standing import still_span
 from armscope.motion.samples.timing import coarse_steps, parted
 from armscope.motion.samples.unread import unread
+from armscope.motion.samples.unstated_gains import gains_in_words
 from armscope.recordings.motions import Motions, torque_columns
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.schema import Notice
@@ -52,8 +53,9 @@ def refuse_unknown_gains(arm: MovingArm, motions: Motions) -> None:
         j = int(np.flatnonzero(np.isnan(arm.gains))[0])
         rule = "currents need the torque of each motor per ampere"
         cure = (
-            "State `drives: [{gain_nm_per_a: ...}, ...]` in robot.yaml, with `gain_uncertainty` where it is not sure."
-        )
+            "State `drives: [{gain_nm_per_a: ...}, ...]` in robot.yaml, with `gain_uncertainty` where it is not sure. "
+            f"{gains_in_words(arm, motions)}"
+        ).rstrip()
         raise InputError(motions.source, f"column current{j + 1}_a", "no gain_nm_per_a in robot.yaml", rule, cure)
 
 
