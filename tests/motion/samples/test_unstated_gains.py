@@ -9,6 +9,7 @@ import pytest
 
 from armscope.core.inputs import InputError
 from armscope.motion.check import refuse_unknown_gains
+from armscope.motion.samples.gain_constants import GAINS
 from armscope.motion.samples.unstated_gains import gains_asked_for, gains_in_words
 from tests.motion.moving import moved, robot
 
@@ -31,3 +32,11 @@ def test_friction_alone_asks_for_none() -> None:
     noise = np.random.default_rng(1).normal(size=torques.effort.shape)
     assert gains_asked_for(robot(), replace(torques, effort=noise, kind="current")) == {}
     assert gains_in_words(robot(), replace(torques, effort=noise, kind="current")) == ""
+
+
+@pytest.mark.parametrize(("explained", "told"), [(0.99, True), (0.5 * GAINS.told, False)])
+def test_masses_that_explain_too_little_of_a_current_ask_for_nothing(explained: float, told: bool) -> None:
+    torques = moved(robot(), 4)
+    spread = torques.effort.std(axis=0) * np.sqrt((1 - explained) / explained)
+    noisy = torques.effort + spread * np.random.default_rng(2).normal(size=torques.effort.shape)
+    assert (2 in gains_asked_for(robot(), replace(torques, effort=noisy, kind="current"))) is told
