@@ -9,6 +9,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
+from armscope.diagnosis.summary.scatter_laws import _load_is_said
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.verdict.effects import FoundEffect
@@ -58,6 +59,16 @@ def test_a_load_that_nobody_recorded_is_told_as_that(arm: Arm, poses: Recordings
     assert sizes(found)["unsaid_load"][0] == pytest.approx(6.0, rel=0.2), "12 kg, or none"
     assert "as if what the arm carries changed" in headline
     assert "payload_kg" in found.cure
+
+
+def test_rows_whose_load_is_recorded_carry_no_other(poses: Recordings) -> None:
+    """Seen on an iiwa with three recorded payloads: "as if what the arm carries changed from row to row by 1.5 kg"."""
+    payload = np.linspace(0.0, 2.5, ROWS)
+    assert _load_is_said(replace(poses, payload=payload)).all()
+    payload[:10] = np.nan
+    assert _load_is_said(replace(poses, payload=payload)).sum() == ROWS - 10
+    assert not _load_is_said(replace(poses, payload=np.zeros(ROWS))).any(), "a template's zeros say nothing"
+    assert not _load_is_said(replace(poses, payload=None)).any()
 
 
 def test_a_joint_that_scatters_alike_in_all_rows_grows_with_nothing(arm: Arm, poses: Recordings) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
@@ -22,6 +23,7 @@ from armscope.measurement.noise import relative_uncertainty
 from armscope.physics.effect import Driver, Product, motor
 from armscope.physics.payload import what_bears
 from armscope.physics.scene import Posture
+from armscope.recordings import Recordings
 from armscope.verdict.effects import Parameter
 
 CONFIRM_GIVE = (
@@ -72,6 +74,7 @@ def law_of_scatter(state: DiagnosisState, scattered: Scattered) -> ScatterLaw | 
     give = _moved(posture, [Product(motor(scattered.motor), Driver("torque", (scattered.motor,)))])
     bearing = what_bears(recordings, elastic)
     load = _moved(posture, [Product(p.direction, Driver("heavier", (p.driver,)), p.factor) for p in bearing])
+    load[_load_is_said(recordings)] = 0.0
     relative = relative_uncertainty(recordings, fit.noise)[:, None]
     left, moved, least = fit.residuals[rows], motor_jacobians(model, recordings), state.noise.least_mm
     (more, by_give), (unsaid, by_load) = (
@@ -97,6 +100,13 @@ def law_of_scatter(state: DiagnosisState, scattered: Scattered) -> ScatterLaw | 
         CONFIRM_GIVE.format(location=place),
         CURE_GIVE.format(location=place),
     )
+
+
+def _load_is_said(recordings: Recordings) -> NDArray[np.bool_]:
+    """(N,) rows of which the table tells what was carried; one load throughout may be a template's."""
+    payload = np.full(len(recordings), np.nan) if recordings.payload is None else recordings.payload
+    said = np.isfinite(payload)
+    return said if len(np.unique(payload[said])) > 1 else np.zeros_like(said)
 
 
 def _moved(posture: Posture, products: Sequence[Product]) -> Array:
