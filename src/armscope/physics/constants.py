@@ -129,6 +129,9 @@ class PlausibleSizes(Constants):
         unit="1/K",
     )
     warm_rad_per_k: float = constant(1e-4, "turn of a link or a zero", "judgement: one side is warmer", unit="rad/K")
+    set_within_k: float = constant(
+        15.0, "of 20 degrees is an arm whose zeros somebody sets", "judgement: a workshop has 5 to 35 degrees", unit="K"
+    )
     growth: float = constant(
         1.0e-4,
         "by which links grow or shrink in a session, as a share of their length",

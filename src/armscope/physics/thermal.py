@@ -139,7 +139,7 @@ def _place_zeros(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
     for j in moving_joints(recordings):
         drift = term("drift", "rad/K", (motor(j), WARMTH), plausible=PLAUSIBLE.warm_rad_per_k)
         yield Placed(THERMAL_ZERO, f"joint {j}", (drift,), (1.0,), "temperature")
-        offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.zero_rad)
+        offset = term("offset", "rad", (motor(j), ONE), plausible=PLAUSIBLE.warm_rad_per_k * PLAUSIBLE.set_within_k)
         both = (drift, offset)
         yield Placed(THERMAL_ZERO, f"joint {j}", both, (1.0, 1.0), "temperature", variant=RIGHT_ELSEWHERE)
 
