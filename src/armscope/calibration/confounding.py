@@ -18,7 +18,6 @@ class Confounded:
     """Which fitted parameters do what a held one does.
 
     Attributes:
-        name: the parameter held.
         partners: fitted parameters that together move the tool as it does, the most alike first; none where it
             hardly moves the tool. Those of all bases or tools count as one: "base rz".
         left: share (0 to 1) of what it does to the tool that the partners leave.

@@ -127,7 +127,6 @@ def placed(set_up: SetUp, most_steps: int = FITTING.steps) -> State:
     """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration.
 
     Args:
-        set_up: rows and arm.
         most_steps: of refinement; a few are enough to see whether an arm explains its points at all.
     """
     frames, n_bases, n_tools = set_up.nominal_frames, len(set_up.base_names), len(set_up.tool_names)

@@ -29,7 +29,6 @@ class SetUp:
     """What is fitted to what.
 
     Attributes:
-        arm: the nominal arm.
         angles, measured: (N, m) rad, (N, 3) m.
         base, tool: (N,) number of each row's base frame and tool.
         base_names, tool_names: what these are called.

@@ -33,11 +33,9 @@ class Calibration(InWords):
     Attributes:
         level: what was free beyond base and tool.
         set_up: rows, frames and the nominal arm.
-        state: the fitted values.
         free: (P,) which parameters were fitted.
         weights: (N,) of the rows; all 1 without the robust option.
         covariance: (free, free) of the fitted parameters, in their units; base parameters as twists in base axes.
-        steps: Gauss-Newton steps made.
         reason: why the fit stopped.
         suspects: (N,) rows that look like bad shots: beyond six times the spread.
         ids: (N,) the rows' ids, "run: id".

@@ -32,7 +32,6 @@ def too_few(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
     """A hint where a diagnosis would not begin.
 
     Args:
-        recordings: the table.
         arm: of as many motors as the table; None where it is not known.
     """
     needed = TABLE.rows if arm is None else rows_needed(arm, recordings)

@@ -30,7 +30,6 @@ class Channels:
     """Columns of torque or current, by joint.
 
     Attributes:
-        names: of the table.
         gains: N m (N) per unit of each joint's column.
         currents: whether they are amperes.
     """

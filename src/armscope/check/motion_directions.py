@@ -83,9 +83,6 @@ def _one_by_one(samples: Samples, arm: MovingArm, turned: Sequence[int], least: 
     """Joints that are counted the other way round, one more as long as it leaves less by enough; and the gain.
 
     Args:
-        samples: of which all are taken.
-        arm: as stated.
-        turned: joints to begin with.
         least: (m,) logarithm of how many times less each must leave.
 
     Returns:

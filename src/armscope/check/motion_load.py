@@ -26,9 +26,6 @@ def factors_of(samples: Samples, rigid: Array) -> dict[int, float]:
     Args:
         samples: N of m joints.
         rigid: (N, m) N m, of the masses.
-
-    Returns:
-        Of each such joint.
     """
     factors: dict[int, float] = {}
     for j, (left, asked) in enumerate(beyond_friction(samples, rigid)):
@@ -47,10 +44,6 @@ def with_a_load(samples: Samples, arm: MovingArm) -> tuple[MovingArm, float] | N
     """The arm with a load that brings all torques to the size of the masses', and the load's kg.
 
     It must suit all joints at once: a single channel in another unit is none.
-
-    Args:
-        samples: differenced over a twentieth of a second.
-        arm: as stated.
 
     Returns:
         None where no torque is far from the masses', or no load explains it, or another unit or order explains more.

@@ -119,8 +119,6 @@ class _Trial:
     """A mistake that is taken to be there, and what is left to tell once it is mended.
 
     Attributes:
-        table: as mended.
-        first: the mistake.
         odd: all that is told of single channels beside it.
         reading: that is still needed.
     """

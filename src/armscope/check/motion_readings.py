@@ -62,7 +62,6 @@ class OtherReading:
     """What a table means if it is not what its columns say.
 
     Attributes:
-        told: in words.
         samples: as they are then.
         order: of the channels of torque, by joint; empty as they stand.
     """

@@ -59,13 +59,8 @@ def _left_by_masses(samples: Samples, arm: MovingArm, more: Array | float = 0.0,
     """(m,) share of each torque beyond friction that the stated masses leave.
 
     Args:
-        samples: of the motion.
-        arm: as stated.
         more: (N, m) torque beside that of the masses.
         either_sign: whether a torque may have the sign opposite to theirs.
-
-    Returns:
-        Shares.
     """
     rigid = arm.torques(samples.q, samples.dq, samples.ddq, arm.inertial) + more
     left = []

@@ -93,7 +93,6 @@ def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
 
     Args:
         recordings: the table, of as many motors as the arm has.
-        arm: the robot it should belong to.
 
     Returns:
         Its problems, whether it is another model's, and whether gravity or sides of approach seem to be turned round.

@@ -108,10 +108,6 @@ def _targets_read(rows: SetUp, state: State, far: Indices, near: float) -> Array
 def on_the_tool(rows: SetUp, state: State) -> Array:
     """Where each measured point is in the tool's frame, by base and tools as they are placed.
 
-    Args:
-        rows: N rows.
-        state: of base, tools and constants.
-
     Returns:
         (N, 3) m.
     """

@@ -17,10 +17,6 @@ def tool_stated_otherwise(arm: Arm, state: State) -> list[Suspicion]:
 
     Points alone find the tool without it. Commands in the base frame, loads and drawings start from what is stated.
 
-    Args:
-        arm: the nominal arm.
-        state: base and tool that were fitted.
-
     Returns:
         A hint with the numbers as the points have them, or nothing.
     """

@@ -236,11 +236,7 @@ def _all_tried(arm: Arm, table: Recordings) -> list[tuple[float, Trial]]:
 
 
 def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:
-    """Whether a target that several runs share sits elsewhere on the flange in some of them.
-
-    Args:
-        explains: only where tools of their own explain the points.
-    """
+    """Whether a target that several runs share sits elsewhere on the flange in some of them."""
     if len(np.unique(table.run)) < 2:
         return []
     from armscope.fitting.exchanged_tool import exchanged_tool  # as above

@@ -164,11 +164,6 @@ def _help(hint: Any) -> str:
 def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
     """What is to be read must be there: said before a command imports what it works with.
 
-    Args:
-        paths: what is not there.
-        needed: what it should be.
-        arms: whether a name of the library would do.
-
     Raises:
         InputError: there is one.
     """
@@ -185,10 +180,6 @@ def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
 
 def _refuse_file(paths: list[Path], needed: str) -> None:
     """What several files go into is no file, and --force makes it none; nor is it standard output.
-
-    Args:
-        paths: where a command writes.
-        needed: what it should be.
 
     Raises:
         InputError: a folder is needed, and a file or a stream is there.

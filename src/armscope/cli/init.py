@@ -106,11 +106,7 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
 
 
 def _pasted() -> str:
-    """Standard input as text, whatever its bytes are.
-
-    Raises:
-        InputError: it is no text.
-    """
+    """Standard input as text, whatever its bytes are. Raises InputError: it is no text."""
     content = sys.stdin.buffer.read()
     try:
         return content.decode("utf-16" if content.startswith(UTF_16) else "utf-8-sig")

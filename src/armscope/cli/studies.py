@@ -31,11 +31,7 @@ ManyFits = Annotated[list[Path], typer.Option("--fits", help="fits of the robot 
 
 
 def parsed(model: type[Model], settings: str) -> Model:
-    """Settings given as a JSON file, or as its text.
-
-    Raises:
-        InputError: no JSON, or not what the step needs.
-    """
+    """Settings given as a JSON file, or as its text. Raises InputError: no JSON, or not what the step needs."""
     source, text = "--settings", settings
     if not settings.lstrip().startswith("{"):
         source = settings
@@ -65,11 +61,7 @@ def every_nth(part: str) -> slice:
 
 
 def worlds_in(folder: Path) -> list[Path]:
-    """The worlds of a folder, each a folder.
-
-    Raises:
-        InputError: there is no such folder.
-    """
+    """The worlds of a folder, each a folder. Raises InputError: there is no such folder."""
     return sorted(path for path in folder_of(folder, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
 
 
@@ -176,11 +168,7 @@ def model_named(name: str) -> ModelSpec:
 
 
 def size_of(text: str) -> Literal["small", "full"]:
-    """Which proof.
-
-    Raises:
-        InputError: neither small nor full.
-    """
+    """Which proof. Raises InputError: neither small nor full."""
     if text == "small":
         return "small"
     if text == "full":

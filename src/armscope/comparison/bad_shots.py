@@ -56,7 +56,6 @@ class BadShot:
     """A row that counts for little.
 
     Attributes:
-        recording, run, id: which.
         residual_mm: how far it lies from what the rest of its recording says.
     """
 
@@ -119,9 +118,6 @@ def from_the_others(alone: Weighed) -> tuple[Array, Array]:
 
     Of n rows fitted beside their penalties, without row i, e / (1 - h) is left of it, of variance 1 + (h / w) / (1 - h)
     (deletion residuals; Cook and Weisberg 1982, 2.2), in blocks of three.
-
-    Args:
-        alone: one recording.
 
     Returns:
         (N, 3) mm, and (N, 3) in units in which a row of full weight has the noise's variance.

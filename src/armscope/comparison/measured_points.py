@@ -108,7 +108,6 @@ def _apart(step: Array, covariance: Array, half: float) -> tuple[float, tuple[fl
     Args:
         step: (3,) mm.
         covariance: (3, 3) of it.
-        half: of an interval, in standard errors.
     """
     distance = float(np.linalg.norm(step))
     along = step / max(distance, 1e-300)
@@ -120,7 +119,6 @@ def _about_last_axis(arm: Arm, point: Array, step: Array, within: Array) -> bool
     """Whether a step keeps a point's way along the last joint's axis and its distance from that, as turning it does.
 
     Args:
-        arm: the arm.
         point: (3,) mm in the last frame, before.
         step: (3,) mm.
         within: (3, 3) covariance of the step, times the square of half an interval.

@@ -38,7 +38,6 @@ class Noisier:
     """A recording of which more is left than of another one.
 
     Attributes:
-        name: of the recording.
         than: the recording that it is held against.
         left_mm: what its own fit leaves, per axis, by the median of its rows.
         usual_mm: the same of the other recording.

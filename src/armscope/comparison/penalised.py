@@ -75,11 +75,7 @@ def held_values(rows: Array, base: HeldColumns) -> Array:
 
 
 def variance_left(rows: Array, base: HeldColumns) -> tuple[float, float]:
-    """How much is left of all rows (n,) together.
-
-    Returns:
-        Variance per number, and how many numbers are free.
-    """
+    """How much is left of all rows (n,) together."""
     values = base.inverse.T @ (base.inverse @ (base.columns.T @ rows))
     left = rows - base.columns @ values
     taken_up = 1 - np.sum(base.inverse**2, axis=0) * base.penalty

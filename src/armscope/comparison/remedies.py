@@ -45,10 +45,6 @@ class Remedy:
 def remedy_of(found: Comparison, change: Change) -> Remedy:
     """What to do about one change; its numbers are those of the change, not of all that is off.
 
-    Args:
-        found: the comparison.
-        change: one of its changes.
-
     Returns:
         The words; empty ones of an effect that is not installed any more.
     """
@@ -178,17 +174,7 @@ def _why(found: Comparison, change: Change) -> str:
 
 
 def _words(known: Effect, location: str, differences: list[Parameter], verb: str) -> dict[str, str]:
-    """What instructions name (`armscope.verdict.tasks`), told of the change.
-
-    Args:
-        known: the effect.
-        location: where.
-        differences: of its parameters.
-        verb: what a zero did.
-
-    Returns:
-        The words by name.
-    """
+    """What instructions name (`armscope.verdict.tasks`), told of the change."""
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
     words |= {"location": location, "size": "", "jump": "", "correction": "take what changed back in the command"}

@@ -37,13 +37,11 @@ class Change:
     """A cause that is not the same in all recordings.
 
     Attributes:
-        effect, location, title: what and where.
         where: the recordings that have it otherwise.
         against: than these, alike in the other changes of the effect.
         kind: what became of it.
         rms_mm: what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb.
         p: by chance, as often as this or more extreme, for any of all causes that were tried.
-        parameters: in every recording.
         alternatives: causes that explain the change as well (evidence within 20 to 1).
         until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
         left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
@@ -104,7 +102,6 @@ class Seen:
     """How far a joint's zero must move to be seen.
 
     Attributes:
-        location: the joint.
         least_rad: of moves of this size a change is named, by this name or another, in `COMPARING.power` of cases;
             infinite where these rows show none.
     """
@@ -133,15 +130,12 @@ class Comparison(InWords):
     """What changed.
 
     Attributes:
-        arm: its name.
         names: of the recordings, in their order.
-        rows: of each.
         noise_mm: per axis, of what the shared model and the changes leave.
         p_nothing_changed: the joint test: how often chance alone gives a cause that differs as much as the most
             different one, all that were tried counted (Bonferroni).
         level: below which changes are named.
         tried: how many causes times places to change were tried.
-        changes: the surest first.
         same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
         left: what is left of each recording, by what is explained.
         seen: how far the zero of each joint must move to be seen, where nothing else changed.

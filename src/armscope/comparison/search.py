@@ -59,17 +59,7 @@ def _left_out(taken: Sequence[Possible]) -> Iterator[tuple[Possible, ...]]:
 def _sure_together(
     model: SharedModel, possible: Sequence[Possible], start: Sequence[Possible], tried: int
 ) -> list[Possible]:
-    """Changes that are sure beside others are added, the likeliest first; then those that no more are go again.
-
-    Args:
-        model: what recordings share.
-        possible: the changes that may be added.
-        start: those to begin with.
-        tried: how many the surest is chosen from.
-
-    Returns:
-        Changes each of which is sure beside the rest.
-    """
+    """Changes that are sure beside others are added, the likeliest first; then those that no more are go again."""
     taken = list(start)
     while len(taken) < COMPARING.changes and (rest := [each for each in possible if each not in taken]):
         scores = model.scores(rest, taken)

@@ -58,11 +58,7 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
 
 
 def _check_rows(table: Recordings) -> None:
-    """Its rows must tell more than where base and tool are, as a diagnosis asks, too.
-
-    Raises:
-        InputError: they don't.
-    """
+    """Its rows must tell more than where base and tool are, as a diagnosis asks, too. Raises InputError: they don't."""
     numbers, frames = 3 * len(table), sum(len(placed.terms) for placed in free_frames(table, False))
     if numbers <= 2 * frames:
         found = f"{len(table)} rows, which hold {numbers} numbers"

@@ -12,13 +12,6 @@ def as_steps(taken: Sequence[Possible], possible: Sequence[Possible]) -> list[Po
 
     A zero that wears on is larger in each recording than in the one before. "From the third on" and "in the second
     alone" say the same of three recordings, but the second has less of it than the third, and seemed repaired.
-
-    Args:
-        taken: the changes that explain the rows best.
-        possible: those that may be named.
-
-    Returns:
-        Changes that span the same differences.
     """
     told = list(taken)
     for number in dict.fromkeys(each.number for each in taken):

@@ -20,12 +20,9 @@ class Valued:
     """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval.
 
     Attributes:
-        name, unit: of the parameter.
-        values, stderrs: one per recording.
         since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
             where all share what these poses leave open.
         difference: with the change less without it.
-        interval_95: of the difference.
         plausible: how large it is on arms.
     """
 

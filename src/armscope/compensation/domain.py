@@ -31,7 +31,6 @@ class Domain:
 
     Attributes:
         inputs, units: (k) names of the inputs, and their units, keys of `RANGE.still`.
-        rows: M.
         mean, scale: (k,) in these units.
         moving: (k,) whether the input moved in the data.
         low, high: (d,) extent along each direction, in standard deviations.

@@ -55,11 +55,7 @@ def _turning_out(turning: Turning) -> dict[str, Any]:
 
 
 def load_error_model(path: Path | str) -> ErrorModel:
-    """Read errormodel.json.
-
-    Raises:
-        InputError: it is no model of this format.
-    """
+    """Read errormodel.json. Raises InputError: it is no model of this format."""
     content = read_json(path, "an error model")
     found = format_of(content)
     if found != FORMAT:

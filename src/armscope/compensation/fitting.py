@@ -122,11 +122,7 @@ class _How:
         return divide(inputs, halvings_of(count))
 
     def fit(self, inputs: Array, errors: Array, cut: Cut | None, label: str) -> _Fitted:
-        """Fit errors (M, 3) within the borders of the regions.
-
-        Raises:
-            ValueError: a region with too few rows.
-        """
+        """Fit errors (M, 3) within the borders of the regions. Raises ValueError: a region with too few rows."""
         features = self.spec.features(inputs)
         if self.method == "swarm":
             fit = fit_swarms([FitProblem(self.spec, inputs, errors, label)], [self.seed])[0]

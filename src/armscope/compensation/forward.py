@@ -85,7 +85,6 @@ class PhysicalArm:
     """A diagnosed arm with all its effects in place, in the context of the path's rows.
 
     Attributes:
-        model: the fitted model.
         context: the path's rows: runs, targets, load, temperature, side of approach, ...
         as_measured: whether points are those that the instrument reads (its scale error included).
     """

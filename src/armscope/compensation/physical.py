@@ -125,11 +125,7 @@ def save_identified(path: Path | str, identified: Identified) -> None:
 
 
 def load_identified(path: Path | str) -> Identified:
-    """Read domain.json.
-
-    Raises:
-        InputError: it is none.
-    """
+    """Read domain.json. Raises InputError: it is none."""
     content = validate(IdentifiedContent, mapping(read_json(path, WHAT), path, WHAT), path)
     return Identified(
         content.robot,
@@ -144,11 +140,7 @@ def load_identified(path: Path | str) -> Identified:
 
 
 def identified_beside(model: Path) -> Identified | None:
-    """What stands in domain.json beside a model.yaml; None where there is none.
-
-    Raises:
-        InputError: it is none.
-    """
+    """What stands in domain.json beside a model.yaml; None where there is none. Raises InputError: it is none."""
     return load_identified(model.parent / FILE) if (model.parent / FILE).is_file() else None
 
 

@@ -42,7 +42,6 @@ class Reachable:
 
         Args:
             left_m: (N,) what is missed where the arm can't be moved, m.
-            pose: whether orientations are asked for, too.
 
         Returns:
             A note; "" for an arm that can be led anywhere.
@@ -65,11 +64,7 @@ def reachable_by(arm: Arm, free: NDArray[np.bool_]) -> Reachable:
     A direction in which a unit turn of the motors moves it hardly anywhere by more than at a pole is none.
 
     Args:
-        arm: the nominal arm.
         free: (m,) motors that may move.
-
-    Returns:
-        The directions.
     """
     limits = np.where(np.isfinite(arm.limits), arm.limits, [-np.pi, np.pi])
     low, high = limits.T

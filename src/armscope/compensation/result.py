@@ -26,7 +26,6 @@ class Compensated(InWords):
     """Commands for N rows of a path; NaN in rows that are refused.
 
     Attributes:
-        arm: the nominal arm.
         id, run: (N,) of the path's rows.
         reasons: (N,) texts: why a row is refused; "" where it is not.
         commands: (N, m) motor angles, rad.
@@ -136,11 +135,7 @@ class Compensated(InWords):
         return table
 
     def require_all(self, source: object) -> Array:
-        """The commands, if every row has one.
-
-        Raises:
-            InputError: names the first refused row and why.
-        """
+        """The commands, if every row has one. Raises InputError: names the first refused row and why."""
         refused = np.flatnonzero(~self.reached)
         if len(refused):
             raise InputError(

@@ -42,7 +42,6 @@ def writable(folder: Path | str, *names: str) -> Path:
 
     Args:
         folder: made if need be; what a command writes is made ready elsewhere, so there it may stay away till the end.
-        names: of the files that will be written there.
 
     Raises:
         InputError: nothing can be written there, or not under one of the names.
@@ -152,10 +151,6 @@ def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
     Within a command the content waits until the command has ended well, see `armscope.core.outputs`. A device or a
     pipe is written through, "-" is standard output, a link stays one: its target is written. Where the process is
     killed, a hidden ``.part`` stays behind, which nobody takes for a finished file and the next writer removes.
-
-    Args:
-        path: what to write.
-        at_once: don't wait for the end of the command.
 
     Raises:
         InputError: the command may not write there.

@@ -208,11 +208,7 @@ def load(model: type[Model], path: Path | str) -> Model:
 
 
 def read_keys(path: Path | str) -> dict[Any, Any]:
-    """The content of a YAML file that has keys.
-
-    Raises:
-        InputError: it can't be read, or has none.
-    """
+    """The content of a YAML file that has keys. Raises InputError: it can't be read, or has none."""
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")

@@ -270,11 +270,7 @@ class Delivery:
         return found[0].staged(found[1]) if found is not None and found[1] in found[0].names else None
 
     def put(self) -> None:
-        """Put all files in place.
-
-        Raises:
-            InputError: one of them may not be written; then none is.
-        """
+        """Put all files in place. Raises InputError: one of them may not be written; then none is."""
         for result in self.results:
             for name in result.names:
                 result.check(name, self._inputs, self.force)

@@ -18,7 +18,6 @@ def tidy(home: Path, locked: str | None = None) -> None:
     """Finish or remove what killed runs left in a folder.
 
     Args:
-        home: the folder.
         locked: the key of the result whose lock the caller holds.
     """
     for left in sorted((home / HIDDEN).glob("*")):

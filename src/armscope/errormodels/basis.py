@@ -37,7 +37,6 @@ class Basis:
     """The coordinates of one model on one set of rows; n terms of which m are kept.
 
     Attributes:
-        kind: which coordinates.
         dropped: the names of the terms that can't be told from earlier ones.
         to_raw: T, n x m (rows of dropped terms are 0).
         triangular: U, m x m.

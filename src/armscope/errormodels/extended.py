@@ -19,7 +19,6 @@ class ModelSet:
     """Which models are fitted.
 
     Attributes:
-        plain: as they are.
         products: with a sparse choice of products.
         regions: divided into so many blended regions.
     """
@@ -35,7 +34,6 @@ class ExtendedModel:
 
     Attributes:
         name: the model's name and how it is extended.
-        features: its terms.
         coefficients: (regions, axes, terms) mm per unit of a term.
         cut: the borders of the regions; None for a single one.
     """

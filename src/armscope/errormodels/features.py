@@ -95,7 +95,6 @@ class FeatureSet:
     """The terms of one model for a given set of inputs.
 
     Attributes:
-        spec: the model.
         inputs: the names of all k inputs: px, py, pz, or theta1 ... thetak.
         moving: which of them move in the identification rows and so have terms.
         wavelengths_mm: of the first harmonic per input, for a Fourier series in millimetres; else None.
@@ -205,11 +204,7 @@ def input_names(space: str, count: int) -> tuple[str, ...]:
 
 
 def checked_inputs(inputs: ArrayLike) -> Array:
-    """``inputs`` as an N x k table of finite numbers.
-
-    Raises:
-        ValueError: it is none.
-    """
+    """``inputs`` as an N x k table of finite numbers. Raises ValueError: it is none."""
     table = np.asarray(inputs, dtype=float)
     if table.ndim != 2 or table.shape[0] == 0 or table.shape[1] == 0:
         raise ValueError(f"inputs of shape {table.shape}: must be rows x inputs, at least one of each")

@@ -45,7 +45,6 @@ class SwarmFit:
         history_mm: what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual
             of its axis, or of the error vector (3D) in the joint layout.
         rows: the number of identification rows.
-        particles: evaluations per iteration.
     """
 
     label: str

@@ -32,7 +32,6 @@ class Cut:
     """A border between two regions, each of which may be divided again.
 
     Attributes:
-        axis: which input.
         at: where, in its unit.
         half_width: of the blended band.
         below, above: how the sides are divided; None: not.
@@ -189,11 +188,7 @@ def _predicted(spec: ModelSpec, halvings: int, inputs: Array, errors_mm: Array, 
 
 
 def halvings_of(regions: int) -> int:
-    """How many times the rows are halved for a number of regions.
-
-    Raises:
-        ValueError: not a power of two.
-    """
+    """How many times the rows are halved for a number of regions. Raises ValueError: not a power of two."""
     if regions < 1 or regions & (regions - 1):
         raise ValueError(f"{regions} regions: must be 1, 2, 4, 8, ...")
     return regions.bit_length() - 1

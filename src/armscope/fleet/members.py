@@ -20,7 +20,6 @@ class Member:
     Attributes:
         arm: its name, of a folder of its verdicts, too.
         type: arms of one type are compared.
-        robot, recordings: files.
         date: of the recordings, as the page orders them; may be empty.
         run: of the recordings that is diagnosed alone; empty: all of them together.
     """

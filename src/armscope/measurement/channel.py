@@ -23,7 +23,6 @@ class Channel(ABC):
     every other channel is scaled by the ratio of their robust noises.
 
     Attributes:
-        name: in one word.
         unit: of residuals and of sensitivities per unit of a direction.
         width: how many numbers a row holds.
         floor: noise below which nothing is believed: residuals that are smaller are as good as that.
@@ -89,11 +88,7 @@ class ChannelResiduals:
         return 1e3 * self["position"]
 
     def __getitem__(self, name: str) -> Array:
-        """(N, width) of the channel of a name.
-
-        Raises:
-            KeyError: no such channel was measured.
-        """
+        """(N, width) of the channel of a name. Raises KeyError: no such channel was measured."""
         for channel, residual in self.by_channel.items():
             if channel.name == name:
                 return residual

@@ -57,10 +57,6 @@ class Diagnosed(Diagnosis):
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose -o folder` writes.
 
-        Args:
-            folder: for report.html, verdict.json, model.yaml and figures.
-            force: overwrite files that armscope did not write.
-
         Returns:
             The page's path.
 

@@ -37,7 +37,6 @@ class AuditScope:
         rises: values tried for the change of the third coordinate of trajectories II and III.
         low, high: box of the corners of trajectory I and of the identification poses.
         corner_samples: sets of three corners tried for trajectory I.
-        first_corner, spiral_starts: as printed.
         seed: of the corner sets.
         search_generations: of the search for the best corners, where none of the samples obeys.
     """

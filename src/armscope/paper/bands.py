@@ -20,7 +20,6 @@ def ensemble_bands(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.D
     """5 and 95 % of the robots at every point.
 
     Args:
-        measurements: of the drawn robots.
         fits: of all of them; the median over the seeds counts.
 
     Returns:

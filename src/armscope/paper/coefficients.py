@@ -14,9 +14,6 @@ from armscope.paper.printed import EQUATIONS, printed_coefficients
 def coefficient_table(fits: Sequence[SwarmFit]) -> pd.DataFrame:
     """One row per model, axis and term of one robot's fits.
 
-    Args:
-        fits: one per model, all of the same robot.
-
     Returns:
         Columns model, equation (NaN where the paper prints none), axis, term, printed, median, low, high (over the
         seeds), least_squares; in mm per unit of the term (mm or rad).

@@ -26,7 +26,6 @@ def cross_check(residuals: pd.DataFrame, fits: Sequence[SwarmFit]) -> pd.DataFra
 
     Args:
         residuals: of all robots (see `residual_table`), the anchored one first.
-        fits: of all robots.
 
     Returns:
         Columns kind ("slope" of an equation, "error" of Table 2), number (such as "Eq. (9), x, theta1" or "FDP(CI),

@@ -25,10 +25,6 @@ TOLERATED = 1.1
 def enough_poses(plan: StudyPlan, study: VirtualStudy) -> pd.DataFrame:
     """The error left on the test trajectories against the number of poses, for every robot of a study.
 
-    Args:
-        plan: how robots, poses and tracker are made.
-        study: the robots and what was measured of them.
-
     Returns:
         Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out).
     """

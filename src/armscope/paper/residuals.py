@@ -25,7 +25,6 @@ def residual_table(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.D
     """One row per robot, model, trajectory, axis and fit.
 
     Args:
-        measurements: of the robots.
         fits: whose labels are robots' names (`Measurements.fit_problems`); robots without a fit keep their
             uncompensated rows.
 
@@ -78,7 +77,6 @@ def typical(residuals: pd.DataFrame, value: str = "rms_mm") -> pd.DataFrame:
 
     Args:
         residuals: see `residual_table`.
-        value: "rms_mm" or "rss_mm".
 
     Returns:
         The table of medians, mm.

@@ -27,15 +27,12 @@ class Varied:
     """The other values of each assumption.
 
     Attributes:
-        arms: geometries.
         tolerances: factors on all sizes.
         margins_rad: by which the poses' joint ranges are wider than the paths'.
         motor_6_rad: ranges of theta6, +-.
-        corners_mm: of trajectory I.
         rises_mm: of trajectories II and III.
         repeats_mm: how well the arm repeats, 1-sigma.
         together: how many scenarios of the joint design.
-        seed: of the design.
     """
 
     arms: tuple[Arm, ...]
@@ -101,9 +98,6 @@ def _together(
 
 def check_reach(plans: Sequence[tuple[str, StudyPlan]]) -> pd.DataFrame:
     """Follow the paths of all scenarios before anything else is done with them.
-
-    Returns:
-        Columns scenario, arm, points (all reached).
 
     Raises:
         InputError: names every scenario with a point that its arm can't reach, and why.

@@ -32,7 +32,6 @@ class Fitting:
     """How a scenario's robots are fitted.
 
     Attributes:
-        specs: the models.
         settings, basis, layout: of the improved method.
         seeds: of the swarms, of either method.
         everything: also random search and cross-validated extensions, which take most of the time.

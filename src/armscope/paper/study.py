@@ -42,10 +42,8 @@ class StudyPlan:
     """What a study assumes.
 
     Attributes:
-        arm: nominal.
         sizes: of its geometric errors.
         paths, poses: where it is measured.
-        tracker: what measures it.
         repeat_m: how well the arm itself repeats, 1-sigma per axis and point, m.
         ensemble: how many robots are drawn besides the anchored one.
         seed: of poses, noise and robots.

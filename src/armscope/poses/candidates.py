@@ -76,14 +76,8 @@ def _too_few(arm: Arm, told: str, most: str, last: Array, around: Surroundings) 
     """That hardly any pose is possible, at the option without which many of them would be.
 
     Args:
-        arm: the arm.
-        told: how many are.
         most: which of `REASONS` refused most; a pose that hits itself may stand below the floor, too.
         last: (N, m) some of those drawn, rad.
-        around: what refuses poses.
-
-    Returns:
-        The error.
     """
     best, option, value, why = 0.0, "", np.empty(0), most
     if around.floor is not None:

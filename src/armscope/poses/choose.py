@@ -28,7 +28,6 @@ class Choice:
         index: what was made large, "O1" to "O5".
         rows: (n,) of the candidates, in the order to measure.
         candidates: what they were chosen from.
-        shown: what they show.
         jacobian: (N, 3, p) of all candidates.
         around: floor, tracker, radius of the links.
     """

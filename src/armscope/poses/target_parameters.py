@@ -33,7 +33,6 @@ class TargetParameters:
     """Parameters that poses can tell apart.
 
     Attributes:
-        arm: the arm.
         placed: frames first, then the effects.
         terms: (effect number in ``placed``, term) of each parameter kept, p of them.
         sizes: (p,) SI size of each that moves the tool by `CHOOSING.size_m`.

@@ -114,7 +114,6 @@ class Aim:
         table: which table of cases it is counted in: worlds, effects, names or intervals.
         column: the column of that table that says right or wrong.
         bounds: the least and the most that the rate may be.
-        among: which rows count.
     """
 
     text: str

@@ -238,7 +238,6 @@ def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
 
     Args:
         cases: as `armscope.proof.scoring.score` returns them.
-        seed: of the bootstrap intervals of thresholds.
     """
     rng = np.random.default_rng(seed)
     return cases.tables() | {

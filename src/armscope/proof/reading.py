@@ -23,11 +23,7 @@ ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}
 
 
 def read_worlds(folder: Path) -> Iterator[World]:
-    """Every world of a proof with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of a proof with its answer. Raises InputError: a diagnosing job could see more than it may."""
     for batch, archive in sealed_batches(folder):
         verdicts = folder / "verdicts" / batch
         for world, truth in unseal(archive).items():

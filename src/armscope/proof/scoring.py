@@ -50,7 +50,6 @@ class World:
     """A world unsealed beside the answer it got.
 
     Attributes:
-        truth, answer: the two.
         times: the recorded `time_s`, where there are any.
         runs: recorded runs, each with a base frame of its own.
     """

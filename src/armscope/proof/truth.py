@@ -23,7 +23,6 @@ class Concealed:
 
     Attributes:
         effect, location: its name; `unknown` if no library has it.
-        driver: what it follows.
         minor: part of a real arm's background.
         strength: RMS at the tool in multiples of the noise.
         parameters: (value, unit) by name, file units.
@@ -108,20 +107,12 @@ def seal(folder: Path, archive: Path) -> None:
 
 
 def unseal(archive: Path) -> dict[str, Truth]:
-    """The truths of an archive, by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """The truths of an archive, by world. Raises InputError: it holds something else."""
     return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
 
 
 def unsealed(archive: Path) -> dict[str, tuple[dict[str, Any], pd.DataFrame]]:
-    """What an archive holds: truth.yaml and test.csv by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """What an archive holds: truth.yaml and test.csv by world. Raises InputError: it holds something else."""
     found: dict[str, dict[str, bytes]] = {}
     with tarfile.open(archive) as tar:
         for entry in tar.getmembers():

@@ -55,8 +55,6 @@ class Give:
     """What a run alone says of how the arm gives way.
 
     Attributes:
-        run: its name.
-        rows: how many.
         mean: (m + n,) compliances of all motors' drives, then of all joints' bearings, rad/(N m); what carries no load
             keeps its prior.
         covariance: (m + n, m + n).
@@ -197,7 +195,6 @@ class Agreement:
     """Two runs' compliances, compared where both tell them.
 
     Attributes:
-        one, other: the runs.
         directions: (k, m + n) combinations of the compliances that both determine, unit vectors, the surest first.
         difference: (k,) of these combinations, one minus other, rad/(N m).
         stderr: (k,) of the differences.

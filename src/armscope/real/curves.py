@@ -26,7 +26,6 @@ class Shared:
 
     Attributes:
         joint: "joint 3".
-        runs: the two runs.
         at: (K,) angle of the joint, rad, evenly spaced.
         one, other: (K,) turn of the joint, rad; NaN where one of the runs hardly knows it.
     """

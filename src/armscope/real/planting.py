@@ -31,7 +31,6 @@ class Planted:
     """An effect in real recordings.
 
     Attributes:
-        effect: with its numbers.
         size: RMS at the tool in multiples of what the arm leaves unexplained.
         rms: per axis, after the frames, over the training rows, m.
         moved: (N, 3) displacement of every row, measurement frame, m.
@@ -117,11 +116,7 @@ def _best_placed(
 
 
 def _places(simulated: SimulatedEffects, kind: Kind) -> list[str]:
-    """Where the recordings could show it.
-
-    Raises:
-        CannotPlantError: nowhere.
-    """
+    """Where the recordings could show it. Raises CannotPlantError: nowhere."""
     prepared = simulated.prepared
     torque = prepared.recordings.torque
     if kind.driver == LOAD and torque is None and not prepared.arm.has_masses:

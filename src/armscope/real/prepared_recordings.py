@@ -32,7 +32,6 @@ class PreparedRecordings:
     """Rows of a real arm with everything that may be seen of them.
 
     Attributes:
-        arm: the nominal arm.
         table: N rows as recordings.csv has them.
         recordings: the same, read.
         train, test: numbers of rows for the diagnosis, and of rows that test.

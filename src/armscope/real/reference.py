@@ -24,7 +24,6 @@ class ReferenceRun(Strict):
 
     Attributes:
         name: how tables call it.
-        run, first_id: which rows.
         splits: random splits (seeds 0, 1, ...) into 70 % to train on and 30 % to test on, by configuration.
         most_rows: of the training rows for the plain calibrations, where the reference used no more.
         figures_mm: test RMS of the 3D distance by level, (mean, standard deviation) over the splits.
@@ -54,7 +53,6 @@ class ReferenceTransfer(Strict):
     """A model learned on all rows of one run and applied to another, where only frames are fitted again.
 
     Attributes:
-        learned, applied: runs.
         refitted: which frames are fitted again on the other run; the rest is carried over.
         figures_mm: RMS of the 3D distance there by model; "compliances": these alone carried over.
     """
@@ -74,7 +72,6 @@ class ReferenceCompliances(Strict):
     """Runs of one arm with recorded torques, whose drives must give way alike.
 
     Attributes:
-        runs: which.
         together: runs that are also fitted together, with a base and a tool each, by what to call them.
         learned_on: the run of the figures.
         microrad_per_nm: compliance of the drive by joint, as others found it there.
@@ -96,9 +93,5 @@ class Reference(Strict):
 
 
 def load_reference(path: Path | str) -> Reference:
-    """Read reference.yaml.
-
-    Raises:
-        InputError: it says something that can't be.
-    """
+    """Read reference.yaml. Raises InputError: it says something that can't be."""
     return load(Reference, path)

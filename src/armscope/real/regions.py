@@ -34,7 +34,6 @@ def regions(arm: Arm, recordings: Recordings) -> Iterator[tuple[str, Indices, In
 
     Args:
         arm: the nominal arm, by which points lie far out or high up.
-        recordings: a run.
 
     Returns:
         The last rows, the farthest from the base's axis, the highest, and those at the largest angles of joint 1.

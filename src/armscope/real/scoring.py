@@ -88,11 +88,7 @@ def read_sealed(folder: Path) -> Iterator[Sealed]:
 
 
 def score(worlds: Sequence[Sealed]) -> Scores:
-    """Score every world against its arm's original.
-
-    Raises:
-        InputError: an arm without its original.
-    """
+    """Score every world against its arm's original. Raises InputError: an arm without its original."""
     originals = {world.set: world for world in worlds if world.truth["kind"] == "original"}
     cases, numbers, skipped = [], [], {}
     drawn: set[tuple[str, str]] = set()

@@ -199,11 +199,7 @@ class Names:
         return InputError(self.source, "line 1", found, rule, cure)
 
     def check_one_unit(self, one: str, other: str) -> None:
-        """Refuse a quantity that stands there twice.
-
-        Raises:
-            InputError: both columns are there.
-        """
+        """Refuse a quantity that stands there twice. Raises InputError: both columns are there."""
         if one in self.columns and other in self.columns:
             raise self._error(f"{one} and {other}", "one column per quantity", "Remove one of them.")
 

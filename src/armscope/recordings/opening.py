@@ -72,11 +72,7 @@ def _refuse_bombs(path: Path, what: str) -> None:
 
 
 def refuse_pickles(path: Path, start: bytes) -> None:
-    """Python object files are never loaded.
-
-    Raises:
-        InputError: this is one, by its suffix or its first bytes.
-    """
+    """Python object files are never loaded. Raises InputError: this is one, by its suffix or its first bytes."""
     if path.suffix.lower() in PICKLE_SUFFIXES or start.startswith(PICKLES):
         raise InputError(
             path,

@@ -37,7 +37,6 @@ def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda he
     """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text.
 
     Args:
-        path: of the file.
         check: refuses a header that can't be used, before the rest is read.
 
     Raises:

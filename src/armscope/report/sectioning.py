@@ -39,9 +39,7 @@ class Section(Generic[S]):
     """A section of a page; its template is <name>.html.j2 in the page's folder of templates.
 
     Attributes:
-        name: its anchor.
         link: what leads to it from the top of the page.
-        title: its heading.
         context: what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name).
         figures: each draws what this subject has something for.
         applies: whether the page of this verdict has it at all.

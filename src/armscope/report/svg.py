@@ -24,7 +24,6 @@ class Drawing:
     """Shapes in px, y downwards; those of a lower order lie below.
 
     Attributes:
-        width, height: of the picture.
         alt: what it shows, for those who can't see it.
     """
 

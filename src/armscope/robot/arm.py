@@ -27,7 +27,6 @@ class Arm(InWords):
     The chain is ``prod_j [before_j * Rz(theta_j)] * tip * tool``, with theta = actuation @ q for motor angles q.
 
     Attributes:
-        description: what robot.yaml says.
         model: the pinocchio model that all arrays below come from.
         before: (n, 4, 4) from the turned frame of joint j-1 to the frame of joint j, whose z is the axis.
         behind: (n, 4, 4) from the turned frame of joint j to link frame j (the D-H frame; identity for a URDF).
@@ -117,11 +116,7 @@ class Arm(InWords):
 
 
 def load_arm(path: Path | str) -> Arm:
-    """The arm of a robot.yaml.
-
-    Raises:
-        InputError: the file can't be read or says something impossible.
-    """
+    """The arm of a robot.yaml. Raises InputError: the file can't be read or says something impossible."""
     return build_arm(load_description(path))
 
 

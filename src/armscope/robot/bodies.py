@@ -19,7 +19,6 @@ class Bodies:
     """An arm's links with what they carry at each of N samples.
 
     Attributes:
-        arm: the arm.
         inertial: (10 n,) inertial parameters of the links.
         payload: (N,) kg at the tool point, or None.
     """

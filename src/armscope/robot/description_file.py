@@ -38,7 +38,6 @@ def described(content: Any, path: Path | str) -> RobotDescription:
     """A description by the content of a robot.yaml.
 
     Args:
-        content: as read from YAML.
         path: of the file, from which its URDF is looked for.
 
     Raises:
@@ -59,7 +58,6 @@ def describe_urdf(path: Path | str, tip: str | None = None) -> RobotDescription:
     """A URDF's one arm, with whatever is guessed under `source`.
 
     Args:
-        path: of the URDF.
         tip: the frame that carries the tool; None guesses it.
 
     Raises:

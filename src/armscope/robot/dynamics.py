@@ -27,7 +27,6 @@ class MovingArm:
     """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units, N m (N where a joint slides).
 
     Attributes:
-        description: what robot.yaml says.
         model: the pinocchio model of the chain.
         inertial: (10 n,) stated inertial parameters, `PARAMETERS` of each link.
         actuation: (n, m) chain positions by motor positions.
@@ -226,11 +225,7 @@ def load_moving_arm(path: Path | str) -> MovingArm:
 
 
 def build_moving_arm(description: RobotDescription, source: Path | str = "robot.yaml") -> MovingArm:
-    """The arm of a description.
-
-    Raises:
-        InputError: it states no masses, or joints that are not possible.
-    """
+    """The arm of a description. Raises InputError: it states no masses, or joints that are not possible."""
     model = pinocchio_model(description, sliding=True)
     n_links = model.njoints - 1
     masses = np.array([model.inertias[joint].mass for joint in range(1, model.njoints)])

@@ -90,7 +90,6 @@ def tool_frames(arm: Arm, motor_angles: Array) -> tuple[Array, Array]:
     """Tool points and orientations alone, at any number of poses: all frames of some of them at a time.
 
     Args:
-        arm: the arm.
         motor_angles: (N, m) rad.
 
     Returns:

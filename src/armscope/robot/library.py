@@ -35,11 +35,7 @@ def nominal_file(name: str) -> Path:
 
 
 def nominal_description(name: str) -> RobotDescription:
-    """An arm of the library.
-
-    Raises:
-        InputError: the library has no arm of that name.
-    """
+    """An arm of the library. Raises InputError: the library has no arm of that name."""
     return load(RobotDescription, nominal_file(name))
 
 

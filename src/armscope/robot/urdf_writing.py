@@ -24,7 +24,6 @@ class WrittenJoint(NamedTuple):
     """A hinge of a chain.
 
     Attributes:
-        name: its own.
         placement: (4, 4) its frame in that of the joint before; it turns about z.
         limits: (low, high) rad; None where it has none.
         effort, speed: N m and rad/s, the most that its drive can.

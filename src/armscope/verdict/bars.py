@@ -19,9 +19,6 @@ def bars_set_right(parameters: Sequence[Parameter]) -> str:
 
     Args:
         parameters: of the parallelogram: the errors of its bars, lengths or shares of the rocker's.
-
-    Returns:
-        A clause; "–" where no bar is told.
     """
     bars = sorted((p for p in parameters if p.name in BARS), key=lambda p: BARS.index(p.name))
     if not bars:

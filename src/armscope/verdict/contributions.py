@@ -105,9 +105,7 @@ class Ground:
     """Rows of a verdict on which contributions are calculated, with the whole fitted model in place.
 
     Attributes:
-        verdict: the diagnosis.
         rows: (n,) numbers of the rows, from 0.
-        posture: the arm there.
         taken_up: (3 n, f) orthonormal: what frames take up.
     """
 

@@ -94,9 +94,6 @@ def wrongly_stated(verdict: Diagnosis) -> bool:
 def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
     """The D-H rows as stated and as found, mm and degrees, without the zeros.
 
-    Args:
-        verdict: of the arm.
-
     Returns:
         A line per row; None for an arm that has no D-H rows, or is wrongly stated.
     """
@@ -136,9 +133,6 @@ def corrected_table(verdict: Diagnosis) -> tuple[list[str], list[list[CorrectedC
 
     What is corrected has its interval beside it and as many decimals as that leaves.
 
-    Args:
-        verdict: of the arm.
-
     Returns:
         The heads of the columns, the row's number first, and the rows; both empty where there are none.
     """
@@ -169,9 +163,6 @@ def _corrected(row: Mapping[Any, Any], name: str, verdict: Diagnosis) -> Correct
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
     """The origins of the chain's joints in the URDF as stated and as found, without the zeros.
-
-    Args:
-        verdict: of the arm.
 
     Returns:
         A line per joint; None for D-H rows, or an arm that is wrongly stated.

@@ -48,11 +48,7 @@ def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
     """The doubt about a cause; None where its name is sure.
 
     Args:
-        effect: found.
         asked: whether further measurements that the verdict asks for settle it.
-
-    Returns:
-        What to say in place of the name.
     """
     if effect.named_as == "effect" or effect.same_cure:
         return None

@@ -86,11 +86,7 @@ def calibrated_last(jobs: Sequence[Job], before: Array) -> list[Job]:
     that wobbles, a bar) is mended at the arm, as a step of its own before it, if that alone pays.
 
     Args:
-        jobs: tasks in their turn.
         before: (n, 3) mm, the error with none of them done.
-
-    Returns:
-        The tasks, some in one.
     """
     at = next((n for n, (task, _) in enumerate(jobs) if task.change == CALIBRATION), len(jobs))
     after = [job for job in jobs[at + 1 :] if _can_be_done_before(job[0])]

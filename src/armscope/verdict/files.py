@@ -17,11 +17,7 @@ from armscope.verdict.schema import Verdict
 
 
 def read_verdict(path: Path | str) -> Verdict:
-    """Read verdict.json.
-
-    Raises:
-        InputError: it is none, or of another version.
-    """
+    """Read verdict.json. Raises InputError: it is none, or of another version."""
     return Verdict.from_json(read_json(path, "verdict.json of a diagnosis"), path)
 
 

@@ -16,9 +16,6 @@ WHOLE_ARM = "arm"
 def growth_in_words(background: Sequence[Part]) -> str:
     """The formula by which all links of an arm are scaled: one number for all, weighed by their lengths.
 
-    Args:
-        background: what is small everywhere in the arm, fitted.
-
     Returns:
         A sentence or two; "" where the links do not grow.
     """

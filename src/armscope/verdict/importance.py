@@ -51,10 +51,6 @@ def as_it_is(found: FoundEffect, background: Sequence[Background]) -> FoundEffec
 def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
     """A diagnosis whose effects, small errors and causes have shares, stand in their order, and are told in words.
 
-    Args:
-        draft: with effects, backgrounds and causes in any order.
-        weigh: which shares are small.
-
     Returns:
         The same with `share` everywhere, the largest first, `minor` where an effect is not worth its place, and the
         headline.

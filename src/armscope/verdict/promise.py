@@ -17,7 +17,6 @@ class Promise:
 
     Attributes:
         before: with the frames only.
-        after: with the model.
         of_all: whether rows that fit nothing are among them: so many are seldom bad shots, and an arm that is told to
             miss as little as all others do will miss by theirs, too.
     """

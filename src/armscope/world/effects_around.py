@@ -95,7 +95,6 @@ def lower_side(pull: Array, least: float) -> Array:
 
     Args:
         pull: (N, 3) what of its weight pulls in the directions in which it slides.
-        least: from which it slides.
     """
     steep = np.linalg.norm(pull, axis=1, keepdims=True)
     return np.where(steep > least, pull / np.maximum(steep, least), 0.0)

@@ -26,8 +26,6 @@ class Scene:
     """The nominal arm in a session, before anything is concealed.
 
     Attributes:
-        description, geometry: the arm.
-        session: N rows.
         torque: (N, m) gravity's torque on each motor of the rigid arm, N m.
         torque_scale: (m,) its largest size in the whole session, N m.
         tool_turn: (N, 3, 3) orientation of the last frame in the base frame.
@@ -86,7 +84,6 @@ class Kind:
     Attributes:
         effect: its name in the vocabulary; `unknown` outside the library.
         variant: tells kinds of one name apart ("" if there is one only).
-        driver: what it follows.
         parameters: its numbers, in order.
         needs: columns of recordings.csv without which nobody can see what drives it.
         places: where in an arm it can sit.

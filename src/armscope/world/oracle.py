@@ -89,13 +89,6 @@ def oracle_rms(oracle: Oracle, columns: list[str]) -> float:
     one give or take all of it; of a gear's many waves it knows the numbers and how their sizes fall, not the phases.
     What follows a column that the table doesn't show it can't predict either: where times are not recorded, the order
     of the recorded rows tells it how they went, and held-out rows are predicted as the recorded ones were on average.
-
-    Args:
-        oracle: of the session.
-        columns: context of the table.
-
-    Returns:
-        Over the held-out rows' readings.
     """
     matrix, values, _ = oracle.fitted()
     frames, missing, seen, unseen = oracle.frames, oracle.missing, oracle.seen, oracle.unseen

@@ -70,9 +70,7 @@ class WorldSpec(Strict):
         arm: file in config/robots without its ending.
         seed: of everything random in it.
         fresh: whether the seed comes from the proof's seed.
-        rows: recorded poses.
         sigma_mm: 1-sigma noise per axis.
-        effects: what it conceals.
         poses: rule of `armscope.world.session.POSE_RULES`.
         columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
             need is left out), `irrelevant` (everything, and columns that mean nothing).

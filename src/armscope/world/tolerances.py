@@ -22,7 +22,6 @@ class GeometricErrors:
     """K possible errors of an arm and their tolerances.
 
     Attributes:
-        arm: the nominal arm.
         names: "a2", "alpha2", "d2", "theta2", "beta2", "base x", ...
         locations: where the twist acts: "base", "joint j" or "link j".
         directions: (K, 6) twist of a unit error (m or rad) in that frame.

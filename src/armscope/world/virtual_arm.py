@@ -34,9 +34,7 @@ class VirtualArm:
         scene: the nominal arm in the whole session, recorded and held-out rows, in order of time.
         nominal: (N, 3) tool points of the nominal arm, m.
         recorded, held_out: rows for the diagnosis and rows that test.
-        chosen: the concealed effects.
         seen: how well those of the story (not `minor`) can be found, in their order, if nobody says what a run is.
-        judge: who says so.
         frames: registration and tool error.
         noise: generator of the measurement noise, fresh.
     """

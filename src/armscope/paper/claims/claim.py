@@ -22,9 +22,7 @@ class Claim:
 
     Attributes:
         key: short name in tables and files.
-        claim: in our words.
         group: one of `GROUPS`.
-        source: page and section.
         wording: of the paper; "" where the claim is read off Table 2.
         criterion: what counts as true of one robot.
         number_is, unit: the number that goes with it.

@@ -94,7 +94,6 @@ def summarise(judged: pd.DataFrame, sensitivity: pd.DataFrame) -> pd.DataFrame:
     """The table of claims: the words of each, what was judged of it, and its verdict under varied assumptions.
 
     Args:
-        judged: the claims of the configured study.
         sensitivity: see `armscope.paper.sensitivity`; may be empty.
 
     Returns:

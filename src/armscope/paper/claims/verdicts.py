@@ -38,7 +38,6 @@ def under_assumptions(base: str, varied: Iterable[tuple[str, str]]) -> tuple[str
     """What remains of a verdict when the assumptions are varied.
 
     Args:
-        base: the verdict under the configured assumptions.
         varied: (which assumption was varied, the verdict then), in the order of the scenarios.
 
     Returns:

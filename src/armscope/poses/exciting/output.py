@@ -119,11 +119,7 @@ def _too_close(alternative: object) -> bool:
 
 
 def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
-    """Name and place of a cause of a verdict.
-
-    Raises:
-        InputError: it has none.
-    """
+    """Name and place of a cause of a verdict. Raises InputError: it has none."""
     if isinstance(content, dict):
         name, location = content.get("effect"), content.get("location")
         if isinstance(name, str) and isinstance(location, str):

@@ -34,10 +34,8 @@ class Excitation:
 
     Attributes:
         arm, limits, around: what it is for.
-        path: the motion.
         shown: what any motion could show.
         before: the scores of the random motions, median first by `value`.
-        after: its own score.
         pairs: what it tells apart; empty: everything.
         inseparable: pairs that were asked for and that no motion tells apart.
         lawless: pairs that were asked for, of which a cause has no law to plan a motion by.
@@ -66,9 +64,6 @@ class MotionRequest:
 
     Attributes:
         period: s.
-        harmonics: of it.
-        rounds: of bettering.
-        seed: of the search.
         pairs: causes to tell apart.
         rate: samples per second of the table, all of which keep clear.
     """
@@ -132,14 +127,8 @@ def _bettered(
     """The best of some motions, bettered; the score of the median one, and its own.
 
     Args:
-        search: that scores and refuses.
-        found: the motions.
-        rng: of the changes.
         progress: as in `excite`.
         most: times as large as they are that changed waves are made where the limits leave room.
-
-    Returns:
-        The motion and the scores.
     """
     scores = [search.score(path) for path in found]
     order = np.argsort([each.value for each in scores])

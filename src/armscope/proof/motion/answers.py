@@ -24,7 +24,6 @@ class MotionAnswer:
     """A verdict on a motion; ``failed`` holds the reason where there is none.
 
     Attributes:
-        world: whose.
         claims: its causes, one per name, and what it calls unknown.
         mismatch, answer: as in verdict.json.
         zeros: of links' encoders beside their motors': (value, standard error, unit) by joint.

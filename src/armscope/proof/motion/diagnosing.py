@@ -25,7 +25,6 @@ def diagnose_worlds(worlds: Iterable[Path], output: Path) -> None:
     """`armscope diagnose` and, for the path without torques, `armscope predict` on every world.
 
     Args:
-        worlds: folders with robot.yaml, motions.csv and test_motions.csv.
         output: new folder; each world's verdict goes into a folder of the world's name.
     """
     new_folder(output)

@@ -21,11 +21,7 @@ ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}
 
 
 def read_worlds(folder: Path) -> Iterator[MotionWorld]:
-    """Every world of a proof with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of a proof with its answer. Raises InputError: a diagnosing job could see more than it may."""
     check_seal(folder / "seen.txt", ALLOWED)
     for world, truth in unseal(folder / "sealed.tar.gz").items():
         yield MotionWorld(truth, read_answer(folder / "verdicts" / world))

@@ -35,9 +35,7 @@ class MotionTruth:
     """What a moving world conceals.
 
     Attributes:
-        world, category, arm, fresh, rows, stated: as made.
         outside: whether no library has it.
-        effects: what is concealed.
         rough: what a rough arm has everywhere; nobody is asked to name it.
         also_allowed: names that are no wrong ones besides those of both.
         background: by joint, the friction and rotors of this arm.
@@ -64,11 +62,7 @@ class MotionTruth:
 
 
 def unseal(archive: Path) -> dict[str, MotionTruth]:
-    """The truths of an archive, by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """The truths of an archive, by world. Raises InputError: it holds something else."""
     return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
 
 

@@ -34,11 +34,7 @@ def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[s
     """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it.
 
     Args:
-        table: the table.
         taken: columns that are something else: motor angles and the point.
-
-    Yields:
-        At most one line.
     """
     free = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     named = _quaternion(table, free)

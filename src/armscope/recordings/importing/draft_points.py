@@ -16,10 +16,6 @@ AXIS = re.compile(r"(?<![a-z])(?:pos|coord|p)?([xyz])(?![a-z])")
 def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
     """The three columns of each measured point, those of one name with numbers 1, 2, ... in their order.
 
-    Args:
-        table: the table.
-        taken: columns that are something else: the motor angles.
-
     Returns:
         Columns along x, y, z by reflector; nothing where no columns look like a point.
     """

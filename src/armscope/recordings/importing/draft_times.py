@@ -28,10 +28,6 @@ first."""
 def time_stamps(table: ForeignTable, taken: Collection[int]) -> str:
     """The mapping's line of a column of time stamps; "" where none reads as stamps that rise.
 
-    Args:
-        table: the table.
-        taken: columns that are something else.
-
     Returns:
         The line, with a comment that it is a guess.
     """

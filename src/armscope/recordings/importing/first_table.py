@@ -81,11 +81,7 @@ class ForeignTable:
 
 
 def first_table(path: Path) -> ForeignTable:
-    """The first lines of a delimited text table.
-
-    Raises:
-        InputError: it is no text table, or has no rows.
-    """
+    """The first lines of a delimited text table. Raises InputError: it is no text table, or has no rows."""
     start = start_of(path, "a table of recordings")
     if is_workbook(start):
         return _of_cells(path, *_first_sheet(path))

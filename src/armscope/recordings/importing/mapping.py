@@ -237,11 +237,7 @@ class Run(RunFiles):
 
 
 def refuse_runs_of_one_name(runs: Sequence[RunFiles]) -> None:
-    """Make sure that runs have different names.
-
-    Raises:
-        ValueError: two have the same.
-    """
+    """Make sure that runs have different names. Raises ValueError: two have the same."""
     names = [run.run for run in runs]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:

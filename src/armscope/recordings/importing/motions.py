@@ -63,11 +63,7 @@ class MotionColumns(Groups):
     run: RunColumn | None = None
 
     def check(self, of_run: str) -> None:
-        """Make sure that nothing needed is missing.
-
-        Raises:
-            ValueError: it is.
-        """
+        """Make sure that nothing needed is missing. Raises ValueError: it is."""
         if self.time is None or self.positions is None:
             raise ValueError(f"a motion needs `time` and `positions`{of_run}")
         if (self.torque is None) == (self.current is None):

@@ -24,7 +24,6 @@ class TextRows:
     """Some rows of a delimited file.
 
     Attributes:
-        source: the file.
         names: its header; empty where it has none.
         numbers_of_rows: (N,) rows of the file without its header, counted from 1.
         lines: (N,) lines of the file, for messages.

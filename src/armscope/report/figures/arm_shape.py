@@ -93,7 +93,6 @@ def typical_pose(arm: Arm, motor_angles: Array) -> tuple[int, View]:
     """The recorded row and the view in which the arm's joints lie farthest apart, and nothing over itself.
 
     Args:
-        arm: the arm.
         motor_angles: (N, m) rad.
 
     Returns:

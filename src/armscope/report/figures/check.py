@@ -32,7 +32,6 @@ def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
     """Points from above and from the side by run, and how many rows each joint has in every 10 degrees.
 
     Args:
-        recordings: the table.
         arm: its robot: points are then drawn where the nominal arm has them, in its base frame, so that runs with
             different measurement frames can be compared, and joint limits are marked. None draws measured points.
     """

@@ -26,7 +26,6 @@ class DrawnCurve:
     Attributes:
         title: where it is and what it follows.
         x, value, low, high: (K,) the driver, the curve and its 95 % band, in the units that the labels name.
-        x_label, y_label: with units.
         rows: (N,) the driver at the recorded rows, drawn as ticks at the bottom; None leaves them out.
     """
 

@@ -40,8 +40,6 @@ class ErrorField:
         motor_angles: (N, m) rad: the pose that the arm takes when a point is chosen.
         ids: (N) what the rows are called.
         groups: (N) the trajectory or run of each row.
-        group_word: "trajectory" or "run".
-        row_word: "point" or "row".
         stages: (name, what the error is) in the order in which they are offered: ("before", "measured minus nominal").
         errors_mm: by model, for each stage (N, 3) base axes; NaN where there is no number.
         missing: why a row may have no number.

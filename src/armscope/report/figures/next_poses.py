@@ -24,7 +24,6 @@ def draw_poses(arm: Arm, motor_angles: Array) -> Drawing:
     """Small drawings of the arm in each pose (at most `MOST_POSES`), each seen from its side, all to one scale.
 
     Args:
-        arm: the arm.
         motor_angles: (K, m) rad, K >= 1.
     """
     shapes = [arm_shape(arm, angles) for angles in motor_angles[:MOST_POSES]]

@@ -62,11 +62,7 @@ class PaperResults:
 
 
 def draw(name: str, shown: PaperResults) -> Figure:
-    """One of `FIGURES`.
-
-    Raises:
-        ValueError: a figure whose models are not configured, or of an arm that is not given.
-    """
+    """One of `FIGURES`. Raises ValueError: a figure whose models are not configured, or of an arm that is not given."""
     measurements, models = shown.measurements, shown.by_model
     if name in ARM_FIGURES:
         if shown.arm is None or shown.tracker_mm is None:

@@ -46,9 +46,6 @@ def modelling_performance(errors: Array, predictions: Mapping[str, Array]) -> Fi
     Args:
         errors: (N, 3) mm.
         predictions: by model, (N, 3) mm; any number of models.
-
-    Returns:
-        The figure.
     """
     with styled():
         figure, panels = panel_grid(len(predictions), 2, (4.5, 2.2), sharex=True, sharey=True)

@@ -23,7 +23,6 @@ def choice_figure(table: pd.DataFrame, title: str) -> Figure:
 
     Args:
         table: see `armscope.poses.compare.compare`.
-        title: arm, number of poses, what was chosen for.
     """
     with styled():
         figure, (indices, parameters, held_out) = plt.subplots(

@@ -32,7 +32,6 @@ def draw_twist(twist: JudgedTwist, torque_unit: str) -> Drawing:
     """Link less motor, less their zeros' difference, over torque.
 
     Args:
-        twist: of the joint.
         torque_unit: N m, or N of a sliding joint.
     """
     rows, zero = twist.selected.rows, twist.side.offset.value

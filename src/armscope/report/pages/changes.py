@@ -76,15 +76,7 @@ class ChangeCard:
 
 
 def write_changes(found: Comparison, folder: Path) -> Path:
-    """Write changes.html, comparison.json, history.csv and, where something changed, history.png and .svg.
-
-    Args:
-        found: the comparison.
-        folder: where to.
-
-    Returns:
-        The page.
-    """
+    """Write changes.html, comparison.json, history.csv and, where something changed, history.png and .svg."""
     history = history_table(found)
     write_json(folder / DATA, found.to_json())
     write_table(folder / TABLE, history)

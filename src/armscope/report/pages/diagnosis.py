@@ -74,11 +74,7 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
 
 
 def write_work_order(subject: Subject, folder: Path) -> tuple[str, ...]:
-    """The work order as a page, and its numbers as tables; none of a model that makes the error larger.
-
-    Returns:
-        The tables that were written.
-    """
+    """The work order as a page, and its numbers as tables; none of a model that makes the error larger."""
     verdict, another = subject.verdict, another_model(subject.verdict)
     tasks = () if another or makes_worse(verdict) else subject.order.tasks
     numbers = {} if makes_worse(verdict) else _write_numbers(subject, folder)
@@ -140,12 +136,7 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
 
 
 def steps_of_rows(rows: pd.DataFrame, order: WorkOrder) -> list[str]:
-    """By D-H row, the step in which it is corrected, and what it must not be done without; "" where it stays.
-
-    Args:
-        rows: stated and corrected.
-        order: of the same verdict.
-    """
+    """By D-H row, the step in which it is corrected, and what it must not be done without; "" where it stays."""
     changed = rows.filter(like="correction_").any(axis=1)
     steps = [order.step_of(f"{LINK_GEOMETRY.name} at link {row}") for row in rows["row"]]
     return [step if changes else "" for step, changes in zip(steps, changed, strict=True)]

@@ -72,15 +72,7 @@ def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
 
 
 def real_lines(folder: Path, of: str) -> list[str]:
-    """Held-out errors on real arms, and what was said of them.
-
-    Args:
-        folder: a folder per set.
-        of: what the results are of.
-
-    Returns:
-        Lines of Markdown.
-    """
+    """Held-out errors on real arms, and what was said of them."""
     rows = []
     for path in sorted(folder.glob("*/verdict.json")):
         verdict = read_motion_verdict(path)

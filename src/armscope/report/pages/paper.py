@@ -40,10 +40,8 @@ class PaperPage:
 
     Attributes:
         paper: the configuration of the study.
-        seed: of the study.
         results: the folder with its tables and figures (SVG).
         proof: the folder of the small proof of the diagnosis.
-        real: real arms.
         field: see `armscope.report.pages.paper_field.error_field`.
         outlook: corrected commands, sub-volumes, products.
     """

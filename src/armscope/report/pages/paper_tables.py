@@ -38,7 +38,6 @@ def table2_blocks(table: pd.DataFrame, marks: Contradictions) -> list[tuple[str,
 
     Args:
         table: as `armscope.paper.table2` returns it.
-        marks: cells of the printed table that contradict others.
     """
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])

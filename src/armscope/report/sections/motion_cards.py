@@ -43,7 +43,6 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
     """The card of a cause.
 
     Args:
-        cause: it.
         number: of it among the causes of torque (from 1); other words make another anchor.
     """
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)

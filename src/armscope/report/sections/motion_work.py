@@ -103,10 +103,6 @@ def where_it_shows(before: Entered, after: Entered) -> str:
 
     Large joints hold most of the torque: what puts a wrist right hardly shows in the error of the whole arm.
 
-    Args:
-        before: errors without the step.
-        after: errors with it.
-
     Returns:
         Words in brackets, with a space before; nothing where the whole says it.
     """

@@ -20,14 +20,7 @@ PLUS = {"compliance": "+ compliance"}
 
 
 def region_lines(folder: Path) -> str:
-    """A paragraph and a table from regions.csv in a folder of results; nothing where there is none.
-
-    Args:
-        folder: of results.
-
-    Returns:
-        Markdown.
-    """
+    """A paragraph and a table from regions.csv in a folder of results; nothing where there is none."""
     if not (folder / "regions.csv").exists():
         return ""
     table = pd.read_csv(folder / "regions.csv")

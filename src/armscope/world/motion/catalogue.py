@@ -43,7 +43,6 @@ class MotionSpec(Strict):
         fresh: whether the seed comes from the proof's seed.
         rate: Hz of the recorded rows.
         noise: standard deviation of the torque's noise as a share of each joint's RMS torque.
-        effects: what it conceals.
         stated: whether robot.yaml states friction and rotor inertia.
         current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
         linked: whether every link has an encoder of its own beside its motor's.
@@ -75,7 +74,6 @@ def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:
 
     Args:
         proof_seed: from which the seeds of every second world are derived.
-        size: which proof.
     """
     recipes = list(_small() if size == "small" else _full())
     return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]

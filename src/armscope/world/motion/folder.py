@@ -79,13 +79,6 @@ def make(spec: MotionSpec, robots: Path) -> World:
     Where the arm of the spec can't conceal what is asked for without being absurd, the next arm of the catalogue does,
     and where none can, one of another draw of its make and of its paths, recorded with less noise.
 
-    Args:
-        spec: what to make.
-        robots: folder of the arms' descriptions.
-
-    Returns:
-        The world.
-
     Raises:
         ImpossibleEffect: the spec's effects can't be on any arm.
     """

@@ -44,11 +44,9 @@ class Kind:
         effect: its name in the vocabulary, `UNKNOWN` for what no library has.
         places: where it can stand on an arm.
         draw: its numbers at unit size; those in `scaled` grow in proportion.
-        units: of every number.
         scaled: names of the numbers that the size multiplies.
         largest: how far the scaled numbers may go before the thing would be absurd, by name.
         changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too.
-        driver: what it follows.
         needs: columns of motions.csv without which nobody could see it.
         stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
         shape: which of several kinds of one effect, and of those outside the library.

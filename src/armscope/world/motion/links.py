@@ -95,11 +95,7 @@ def link_rivals(stage: Stage, j: int) -> Iterator[Rival]:
     """Every cause of a link beside its motor at one joint, as patterns (N, k).
 
     Args:
-        stage: the samples at which they are wanted.
         j: the joint, from 0.
-
-    Yields:
-        One at a time.
     """
     place, load, angle = f"joint {j + 1}", stage.load[:, [j]], stage.session.angle[:, [j]]
     yield Rival("joint_elasticity", place, -load)

@@ -59,7 +59,6 @@ class Dynamics:
         gravity: (3,) in the base frame, m/s^2.
         load, load_centre, load_inertia: a body, kg, where it is from the tool point, in the last frame, m, and its
             inertia about any axis through its centre, kg m^2.
-        springs, couplings: what else pulls.
     """
 
     mass: Array

@@ -24,8 +24,6 @@ class PlainArm:
 
     Attributes:
         description: what robot.yaml says (all of it).
-        dynamics: as it is.
-        session: its motions.
         sigma: (n,) noise of the recorded torques, N m.
         stated: whether robot.yaml states friction and rotor inertia; else they are found, and absorb what is like them.
     """

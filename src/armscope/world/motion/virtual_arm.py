@@ -35,10 +35,6 @@ class VirtualArm(PlainArm):
     def torques(self, concealed: list[Concealed], session: Session | None = None) -> Array:
         """(T, n) what the drives would record without noise, N m.
 
-        Args:
-            concealed: what is wrong with the arm.
-            session: another motion than its own.
-
         Raises:
             ValueError: no body has the inertias that come out.
         """
