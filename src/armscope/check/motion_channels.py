@@ -16,8 +16,7 @@ from armscope.motion.check import channels
 from armscope.motion.samples.standing import still_span
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.counting import times
-from armscope.verdict.wording import percent
+from armscope.verdict.wording import percent, times
 
 SIGN = "has the sign opposite"
 """What is said of every torque whose sign is turned, after its name."""

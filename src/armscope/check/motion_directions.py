@@ -20,7 +20,7 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.core.words import enumerated
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.counting import times
+from armscope.verdict.wording import times
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.counting import times
+from armscope.verdict.wording import times
 
 
 def moved_zeros(samples: Samples, arm: MovingArm) -> Iterator[tuple[int, float, Samples]]:

@@ -22,6 +22,9 @@ from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
 from armscope.core.streams import is_stream, pipes_kept
 
+EXPERIMENTS = "Experiments (the workflow calls these)"
+
+
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
@@ -108,7 +111,11 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     def deliver(force: bool, values: dict[str, Any]) -> None:
         reads = _paths(value for name, value in values.items() if name not in outputs)
         for name, value in values.items():
-            absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
+            absent = [
+                path
+                for path in _paths([value] if name not in outputs else [])
+                if not (path.exists() or is_stream(path))
+            ]
             arms = name in NOMINAL
             _refuse_absent([path for path in absent if not (arms and _in_library(path))], _help(hints[name]), arms)
         writes = _paths(value for name, value in values.items() if name in outputs)
@@ -223,10 +230,6 @@ def _refuse_workbooks(paths: list[Path]) -> None:
         if path.suffix.lower() in WORKBOOKS:
             cure = f"Call it {path.stem}.csv: spreadsheets open it."
             raise InputError(path, "", f"a workbook's ending {path.suffix}", "no command writes workbooks", cure)
-
-
-def _is_absent(path: Path) -> bool:
-    return not (path.exists() or is_stream(path))
 
 
 def _in_library(robot: Path) -> bool:

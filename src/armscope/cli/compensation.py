@@ -11,7 +11,7 @@ import typer
 from armscope.cli.commands import Commands, NominalArm, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
-from armscope.core.numerals import or_less
+from armscope.core.words import or_less
 
 if TYPE_CHECKING:
     import numpy as np

@@ -156,7 +156,7 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     """What stands beside the answer: the check's doubts, what makes it impossible, rows that look like bad shots."""
     from armscope.check.enough_rows import rows_needed
     from armscope.check.suspicion import BESIDE
-    from armscope.core.numerals import rounded
+    from armscope.core.words import rounded
     from armscope.verdict.payload_place import of_payloads
     from armscope.verdict.schema import MISLABELLED, TOOL_AS_STATED, TOOL_EXCHANGED
 

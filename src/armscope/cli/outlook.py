@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.cli.panels import EXPERIMENTS
+from armscope.cli.commands import EXPERIMENTS, Commands
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 

@@ -152,7 +152,7 @@ def table2_(
 def coefficients(fits: Fits, output: Output) -> None:
     """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
     from armscope.core.files import write_table
-    from armscope.paper.coefficients import coefficient_table
+    from armscope.paper.table2 import coefficient_table
 
     write_table(output, coefficient_table(read_fits(fits)), digits=6)
 

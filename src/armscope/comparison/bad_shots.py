@@ -13,8 +13,8 @@ import numpy as np
 
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.penalised import HeldColumns
-from armscope.core.numerals import rounded
 from armscope.core.types import Array, Indices
+from armscope.core.words import rounded
 from armscope.measurement import robust
 from armscope.measurement.constants import WEIGHTS
 from armscope.recordings import Recordings

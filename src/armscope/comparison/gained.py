@@ -10,18 +10,51 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.special import fdtri
 
 from armscope.comparison.at_the_tool import beyond_frames
-from armscope.comparison.constants import SHARED
+from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible
-from armscope.comparison.levels import own_values
-from armscope.comparison.result import Sense
+from armscope.comparison.penalised import HeldColumns
+from armscope.comparison.result import Change, Sense
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.valued import Valued
 from armscope.core.types import Array
 from armscope.physics.effect import Placed
 from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL
+
+
+def own_values(
+    model: SharedModel, number: int, beside: Sequence[Possible], count: int, prior_mm: float = SHARED.prior_mm
+) -> tuple[Array, Array, float]:
+    """An effect with a value of its own in every recording.
+
+    Args:
+        model: what recordings share.
+        number: the effect's, of q terms.
+        beside: changes of other effects.
+        count: of the recordings.
+        prior_mm: how large other effects that are shared are at the tool.
+
+    Returns:
+        Values (count q), SI units, their covariance, and how many numbers are free.
+    """
+    at = model.at(number)
+    others = model.scale > 0
+    others[at] = False
+    base = model.base(beside, others, model.own.other_than(model.effects[:, at]), prior_mm)
+    own = np.hstack([model.columns_of(number, (k,)) for k in range(count)])
+    # what one recording alone does not tell stays at the prior
+    scale = np.tile(model.scale[at], count)
+    scale = np.where(scale > 0, scale, 1.0)
+    held = np.concatenate([base.penalty, model.noise / (SHARED.widened * scale) ** 2])
+    whole = HeldColumns(np.hstack([base.columns, own]), held, base.drawn)
+    inverse = np.linalg.inv(whole.gram + np.diag(held))
+    values = (inverse @ (whole.columns.T @ model.residual))[-own.shape[1] :]
+    variance, free = model.left(whole)
+    return values, np.asarray(model.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :]), free
+
 
 NOT_NEGATIVE = ("backlash",)
 """Beside what gives way: a gap that is less than none is none."""
@@ -76,3 +109,49 @@ def more_sigmas(
     columns = beyond_frames(model, model.columns_of(found.number, tuple(range(count))))
     along = columns.T @ (columns @ (change @ values)) @ middle
     return float(along @ values / np.sqrt(along @ covariance @ along))
+
+
+def stands(model: SharedModel, found: Possible, change: Change, taken: Sequence[Possible], tried: int) -> bool:
+    """Whether a change's own numbers say that it is one, and one that this cause can make.
+
+    Args:
+        model: what recordings share.
+        found: the change.
+        change: as it would be told.
+        taken: all changes, this one included.
+        tried: how many there were to choose from.
+
+    Returns:
+        False where each number may be as it was, where one is below zero that cannot be, or where all of it moves the
+        tool by less than the noise lets anyone see.
+    """
+    surely = any(low > 0 or high < 0 for low, high in (number.interval_95 for number in change.parameters))
+    return surely and not _impossible(change) and change.rms_mm >= least_seen_mm(model, found, taken, tried)
+
+
+def _impossible(change: Change) -> bool:
+    """Whether what cannot be below zero is."""
+    if not cannot_be_negative(change.effect, len(change.parameters)):
+        return False
+    (number,) = change.parameters
+    return any(
+        value < -COMPARING.surely_negative * stderr for value, stderr in zip(number.values, number.stderrs, strict=True)
+    )
+
+
+def least_seen_mm(model: SharedModel, found: Possible, taken: Sequence[Possible], tried: int) -> float:
+    """What a change must move the tool by to be told from noise if nothing else could look like it.
+
+    Args:
+        model: what recordings share.
+        found: the change, of q numbers.
+        taken: all changes: what they do is no noise.
+        tried: how many there were to choose from.
+
+    Returns:
+        RMS of the distance, mm: of it chance makes as much, on these rows, as often as the level says.
+    """
+    points = [np.sum(model.weight[rows] ** 2) / 3 for rows in (found.there, ~found.there)]
+    q, variance = len(found.placed.terms), model.variance(taken)
+    least = fdtri(q, len(model.weight) - q, 1 - COMPARING.level / tried)
+    return float(np.sqrt(q * least * model.dispersion * variance * sum(1 / each for each in points)))

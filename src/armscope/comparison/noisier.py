@@ -14,9 +14,8 @@ import numpy as np
 from scipy.special import chdtri, ndtr
 
 from armscope.comparison.constants import COMPARING, GROWN
-from armscope.core.numerals import size_of
 from armscope.core.types import Array
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.fitting.joint_scatter import find_scatter
 from armscope.verdict.constants import WORDS
 from armscope.verdict.wording import millimetres

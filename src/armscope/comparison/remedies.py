@@ -12,8 +12,7 @@ from armscope.comparison.constants import COMPARING
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison
 from armscope.comparison.valued import Valued
-from armscope.core.numerals import size_of
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.physics.effect import Effect
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named

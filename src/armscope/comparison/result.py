@@ -12,9 +12,8 @@ from armscope.comparison.measured_points import MeasuredPoint, told_of_points
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
 from armscope.core.files import plain_values
-from armscope.core.numerals import size_of
 from armscope.core.told import InWords
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.verdict.constants import WORDS
 from armscope.verdict.wording import capitalised, places_in_words, spelled
 

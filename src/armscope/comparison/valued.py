@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from armscope.comparison.constants import COMPARING
-from armscope.core.numerals import shown_unit
+from armscope.core.words import shown_unit
 from armscope.physics.constants import PLAUSIBLE
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import decimals_for

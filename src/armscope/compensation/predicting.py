@@ -47,20 +47,11 @@ def predict_file(model: Path, poses: Path, pose: bool = False) -> tuple[pd.DataF
     else:
         found = _by_physics(model, poses, pose)
     points, rotations, rows, notes = found
-    return points_table(points, rotations, rows), notes
+    return _points_table(points, rotations, rows), notes
 
 
-def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd.DataFrame:
-    """Points and orientations of some rows as a table.
-
-    Args:
-        points: (N, 3), m.
-        rotations: (N, 3, 3), or None.
-        rows: what they are of.
-
-    Returns:
-        Columns id, run, x_mm, y_mm, z_mm and, where there are rotations, qw, qx, qy, qz.
-    """
+def _points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd.DataFrame:
+    """Columns id, run, x_mm, y_mm, z_mm and, where there are rotations (N, 3, 3), qw, qx, qy, qz; points (N, 3), m."""
     import pandas as pd
     from scipy.spatial.transform import Rotation
 
@@ -99,7 +90,7 @@ def predict_rows(
         InputError: context that the model follows and the rows lack.
     """
     points, rotations, _, notes = _by_model(fitted, rows, identified, pose)
-    return points_table(points, rotations, rows), notes
+    return _points_table(points, rotations, rows), notes
 
 
 def _by_model(fitted: FittedModel, rows: Recordings, identified: Identified | None, pose: bool) -> Found:

@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.path import Frame
 from armscope.core.averages import rms
 from armscope.core.inputs import InputError
-from armscope.core.numerals import or_less
 from armscope.core.told import InWords
 from armscope.core.types import Array, Indices
+from armscope.core.words import or_less
 from armscope.recordings.columns import angle_columns
 from armscope.robot import Arm
 

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.closed_loop import NO_MODEL, Corrector, black_box_candidate
 from armscope.compensation.fitting import fit_error_model
-from armscope.compensation.path import WantedPath, as_path
+from armscope.compensation.path import as_path
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
 from armscope.errormodels.extended import ModelSet
@@ -84,7 +84,7 @@ def paper_full_pose(
         for name, angles in paths.items():
             real = _pose(truth.frames(angles, errors / truth.sigmas))
             rows += _rows(title, name, "prediction", *_gap(real, model.tool_pose(angles)))
-            result = model.compensate(_wanted(arm, angles, name))
+            result = model.compensate(as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm))
             reached, gap = result.reached, (np.empty((0, 3)), np.empty((0, 3)))
             if reached.any():
                 loop = _pose(truth.frames(result.commands[reached], errors / truth.sigmas))
@@ -123,11 +123,6 @@ def _table(angles: Array, points: Array, rotations: Array) -> pd.DataFrame:
     columns |= {f"{axis}_mm": points[:, n] * 1e3 for n, axis in enumerate("xyz")}
     quaternions = Rotation.from_matrix(rotations).as_quat(canonical=True)
     return pd.DataFrame(columns | dict(zip(("qx", "qy", "qz", "qw"), quaternions.T, strict=True)))
-
-
-def _wanted(arm: Arm, angles: Array, name: str) -> WantedPath:
-    """Nominal poses, wanted on the branch of the nominal commands."""
-    return as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm)
 
 
 def _models(arm: Arm, recordings: Recordings, models: ModelSet) -> dict[str, Corrector]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
-from armscope.paper.printed import TEST_TRAJECTORIES, printed_table2
+from armscope.errormodels.fitted import SwarmFit
+from armscope.paper.printed import EQUATIONS, TEST_TRAJECTORIES, printed_coefficients, printed_table2
 from armscope.paper.residuals import typical
 
 ENSEMBLE_RANGE = (5, 95)
@@ -56,3 +59,33 @@ def table2(residuals: pd.DataFrame) -> pd.DataFrame:
     table["robots"] = len(robots)
     table["rank"] = ((all_robots < all_robots.loc[shown]).sum() + 1).reindex(table.index)
     return table.reset_index()
+
+
+def coefficient_table(fits: Sequence[SwarmFit]) -> pd.DataFrame:
+    """One row per model, axis and term of one robot's fits.
+
+    Returns:
+        Columns model, equation (NaN where the paper prints none), axis, term, printed, median, low, high (over the
+        seeds), least_squares; in mm per unit of the term (mm or rad).
+    """
+    printed = printed_coefficients().set_index(["model", "axis", "term"])["coefficient"]
+    parts = []
+    for fit in fits:
+        for number, axis in enumerate(fit.axes):
+            values = fit.coefficients[:, number]
+            table = pd.DataFrame(
+                {
+                    "model": fit.name,
+                    "equation": EQUATIONS[fit.name] + number if fit.name in EQUATIONS else np.nan,
+                    "axis": axis,
+                    "term": fit.features.term_names,
+                    "median": np.median(values, axis=0),
+                    "low": values.min(axis=0),
+                    "high": values.max(axis=0),
+                    "least_squares": fit.least_squares[number],
+                }
+            )
+            keys = pd.MultiIndex.from_frame(table[["model", "axis", "term"]])
+            table.insert(4, "printed", printed.reindex(keys).to_numpy())
+            parts.append(table)
+    return pd.concat(parts, ignore_index=True)

@@ -10,9 +10,9 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.core.inputs import InputError
-from armscope.core.numerals import size_of
 from armscope.core.told import InWords
 from armscope.core.types import Array
+from armscope.core.words import size_of
 from armscope.robot.arm_type import ArmType
 from armscope.robot.constants import ARMS
 from armscope.robot.description import RobotDescription

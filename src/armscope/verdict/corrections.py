@@ -14,7 +14,8 @@ from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
 from armscope.physics.zero_shift import ZERO_SHIFT
-from armscope.robot import Arm
+from armscope.robot import Arm, controllers
+from armscope.robot.arm import build_arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.constants import ORDER
 from armscope.verdict.diagnosis import Diagnosis
@@ -211,3 +212,21 @@ def place_and_angles(origin: Array) -> tuple[Array, Array]:
 
     angles = Rotation.from_matrix(origin[:3, :3]).as_euler("xyz", suppress_warnings=True)
     return origin[:3, 3] + 0.0, angles + 0.0  # no minus before a zero
+
+
+def corrected_ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
+    """`armscope.robot.controllers.ur_kinematics` of an arm whose rows and zeros are put right.
+
+    None where nothing is: a file of the nominal arm would undo what the maker calibrated.
+    """
+    arm = verdict.model.arm
+    rows, zeros = corrected_rows(verdict), zero_offsets(verdict)["actual_minus_commanded_deg"]
+    if rows is None or arm.description.dh is None or not (changes(rows) or zeros.any()):
+        return None
+    rows = rows.assign(corrected_theta_offset_deg=rows["corrected_theta_offset_deg"] + zeros)
+    joints = [
+        row.model_copy(update={name: float(rows[f"corrected_{name}"].iloc[j]) for name in NUMBERS})
+        for j, row in enumerate(arm.description.dh.joints)
+    ]
+    dh = arm.description.dh.model_copy(update={"joints": joints})
+    return controllers.ur_kinematics(build_arm(arm.description.model_copy(update={"dh": dh})))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.core.numerals import size_of
+from armscope.core.words import size_of
 from armscope.physics.effect import Part
 from armscope.physics.thermal import THERMAL_EXPANSION
 

@@ -156,7 +156,6 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
 
 
 def _in_doubt(task: Task, doubt: Doubt) -> Task:
-    """A task whose cause is to be settled first: its best reading is told as a condition, and names no part before."""
     return replace(
         task,
         what=capitalised(doubt.what),

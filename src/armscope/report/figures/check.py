@@ -89,7 +89,7 @@ def _draw_points(panel: Any, runs: list[_Run], across: int, up: int) -> None:
 
 def _style(number: int, run: _Run) -> dict[str, Any]:
     """Dots; a diamond for one point; where earlier runs have the same points rings about theirs."""
-    look = {"marker": "o", "linestyle": "", "color": _colour(number), "markeredgewidth": 0.7}
+    look = {"marker": "o", "linestyle": "", "color": RUN_COLOURS[number % len(RUN_COLOURS)], "markeredgewidth": 0.7}
     if run.shared:
         return look | {"markerfacecolor": "none", "markersize": 1.6 + 1.9 * run.shared}
     if run.still:
@@ -101,10 +101,6 @@ def _key(number: int, run: _Run) -> Line2D:
     style = _style(number, run)
     plain = style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)}
     return Line2D([], [], label=f"run {run.name}" if run.name.isdigit() else run.name, **plain)
-
-
-def _colour(run: int) -> str:
-    return RUN_COLOURS[run % len(RUN_COLOURS)]
 
 
 def _draw_coverage(figure: Figure, panel: Any, recordings: Recordings, arm: Arm | None) -> None:

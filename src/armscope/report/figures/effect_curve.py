@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.numerals import shown_unit
 from armscope.core.types import Array
+from armscope.core.words import shown_unit
 from armscope.report.colours import AFTER, OUTLINE, PALE
 from armscope.report.sectioning import Drawn
 from armscope.report.subject import Subject

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.result import moments_of
 from armscope.core.inputs import spelt_out
-from armscope.core.numerals import shown_unit
+from armscope.core.words import shown_unit
 from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8

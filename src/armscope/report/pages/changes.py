@@ -19,8 +19,7 @@ from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of
 from armscope.comparison.valued import wave_part
 from armscope.core.files import write_json, write_table
-from armscope.core.numerals import shown_unit
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, shown_unit
 from armscope.report.figures.history import drawn_numbers, history_figure, history_table, told_numbers
 from armscope.report.html import write_page
 from armscope.report.style import save_figure

@@ -21,7 +21,6 @@ from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.subject import Subject
 from armscope.robot.controllers import UR_KINEMATICS, ZEROS_IN_IT
-from armscope.verdict.controllers import corrected_ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
@@ -29,6 +28,7 @@ from armscope.verdict.corrections import (
     corrected_origins,
     corrected_rows,
     corrected_table,
+    corrected_ur_kinematics,
     unsettled,
     wrongly_stated,
     zero_offsets,
@@ -130,7 +130,7 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
         "tables": [
             *(name for name, table in {ZEROS: zeros, **corrected}.items() if changes(table)),
             *([UR_KINEMATICS] if kinematics else []),
-            *([CURVES] if _has_curves(verdict) else []),
+            *([CURVES] if any(effect.nameless and effect.curve is not None for effect in verdict.effects) else []),
         ],
     }
 
@@ -140,11 +140,6 @@ def steps_of_rows(rows: pd.DataFrame, order: WorkOrder) -> list[str]:
     changed = rows.filter(like="correction_").any(axis=1)
     steps = [order.step_of(f"{LINK_GEOMETRY.name} at link {row}") for row in rows["row"]]
     return [step if changes else "" for step, changes in zip(steps, changed, strict=True)]
-
-
-def _has_curves(verdict: Diagnosis) -> bool:
-    """Whether a step subtracts a curve."""
-    return any(effect.nameless and effect.curve is not None for effect in verdict.effects)
 
 
 def _zeros_in_words(zeros: pd.DataFrame) -> list[tuple[str, str, str]]:

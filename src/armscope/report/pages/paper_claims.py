@@ -11,7 +11,7 @@ import pandas as pd
 
 from armscope.paper.claims import AS_PRINTED, IMPROVED, LEAST_SQUARES, SKIPPED
 from armscope.paper.claims.claim import GROUPS, OWN
-from armscope.paper.claims.verdicts import DEPENDS, FAILS, HOLDS, OPEN
+from armscope.paper.claims.table import DEPENDS, FAILS, HOLDS, OPEN
 from armscope.report.html import significant
 
 TAGS = {HOLDS: "holds", FAILS: "fails", DEPENDS: "depends", OPEN: "open", SKIPPED: "open", "not varied": "open"}

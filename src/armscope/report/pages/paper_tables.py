@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from armscope.core.config import Paper, stated_numbers
-from armscope.paper.claims.catalogue import CLAIMS
+from armscope.paper.claims.table import CLAIMS
 from armscope.paper.convergence import iterations_needed
 from armscope.paper.decisive_errors import meaning
 from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import write_text
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.physics.registry import EFFECTS
 from armscope.real.constants import PROTOCOL
 from armscope.real.curves import shared

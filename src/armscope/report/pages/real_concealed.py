@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.files import write_text
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.report.html import share_text, significant
 
 HEAD = """\

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
 from armscope.report.sectioning import Section

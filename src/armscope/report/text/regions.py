@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.real.protocol import ARMSCOPE
 from armscope.report.html import significant
 

@@ -104,10 +104,6 @@ def _either(rng: np.random.Generator, pair: Pair) -> float:
     return float(rng.choice([-1.0, 1.0])) * between(rng, pair)
 
 
-def _usual(arm: PlainArm, joint: int) -> float:
-    return float(np.sqrt(np.mean(arm.session.speed[:, joint] ** 2)))
-
-
 def _rest(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:
     more = between(rng, ROUGH.rest_share) * arm.dynamics.coulomb[joint]
     return OF["stribeck_friction"], {"stribeck": float(more), "speed": between(rng, ROUGH.rest_speed)}
@@ -124,7 +120,11 @@ def _viscous_sides(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple
 
 def _bend(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:
     viscous, power = float(arm.dynamics.viscous[joint]), between(rng, ROUGH.bend_power)
-    return BENT, {"viscous": viscous, "usual": _usual(arm, joint), "power": power}
+    return BENT, {
+        "viscous": viscous,
+        "usual": float(np.sqrt(np.mean(arm.session.speed[:, joint] ** 2))),
+        "power": power,
+    }
 
 
 def _loaded(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:

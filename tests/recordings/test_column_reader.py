@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.recordings.wrong_cells import how_to_mend, how_to_scale
+from armscope.recordings.column_reader import how_to_mend, how_to_scale
 
 
 @pytest.mark.parametrize(

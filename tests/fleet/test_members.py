@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from armscope.diagnosis import Settings
-from armscope.fleet.diagnosing import FAILURE, diagnose_members
-from armscope.fleet.members import Member
+from armscope.fleet.members import FAILURE, Member, diagnose_members
 from armscope.verdict.files import read_verdict
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "clean"

@@ -14,8 +14,8 @@ from armscope.physics.effect import Part
 from armscope.physics.freeform import UNKNOWN
 from armscope.physics.scene import Scene
 from armscope.verdict.contributions import Contributions, contributions
-from armscope.verdict.curves import curves_table
 from armscope.verdict.diagnosis import Diagnosis, Residuals
+from armscope.verdict.files import curves_table
 from armscope.verdict.work_order import work_order
 from tests.physics.test_cure import World, fitted, world_with
 from tests.report import verdicts
