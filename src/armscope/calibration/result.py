@@ -28,37 +28,23 @@ UNDETERMINED = {"m": SIZES.length_m, "rad": SIZES.angle_rad, "rad/(N m)": SIZES.
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Calibration(InWords):
-    """A calibrated arm.
+    """A calibrated arm."""
 
-    Attributes:
-        level: what was free beyond base and tool.
-        set_up: rows, frames and the nominal arm.
-        free: (P,) which parameters were fitted.
-        weights: (N,) of the rows; all 1 without the robust option.
-        covariance: (free, free) of the fitted parameters, in their units; base parameters as twists in base axes.
-        reason: why the fit stopped.
-        suspects: (N,) rows that look like bad shots: beyond six times the spread.
-        ids: (N,) the rows' ids, "run: id".
-        notes: what was decided: orientations used or left out, tools free per run.
-        doubts: why the result should not be used; empty if all is well.
-        held: parameters of the level that stay nominal, since the poses cannot tell them from others, and from which.
-        misses: in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for.
-    """
-
-    level: Level
-    set_up: SetUp
+    level: Level  # what was free beyond base and tool
+    set_up: SetUp  # rows, frames and the nominal arm
     state: State
-    free: NDArray[np.bool_]
-    weights: Array
-    covariance: Array
+    free: NDArray[np.bool_]  # (P,) which parameters were fitted
+    weights: Array  # (N,) of the rows; all 1 without the robust option
+    covariance: Array  # (free, free) of the fitted parameters, in their units; base parameters as twists in base axes
     steps: int
-    reason: str
-    suspects: NDArray[np.bool_]
-    ids: NDArray[np.str_]
-    notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    reason: str  # why the fit stopped
+    suspects: NDArray[np.bool_]  # (N,) rows that look like bad shots: beyond six times the spread
+    ids: NDArray[np.str_]  # (N,) the rows' ids, "run: id"
+    notes: tuple[str, ...] = ()  # what was decided: orientations used or left out, tools free per run
+    doubts: tuple[str, ...] = ()  # why the result should not be used; empty if all is well
+    # parameters of the level that stay nominal, since the poses cannot tell them from others, and from which
     held: tuple[Confounded, ...] = ()
-    misses: pd.DataFrame | None = None
+    misses: pd.DataFrame | None = None  # in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for
 
     @functools.cached_property
     def arm(self) -> Arm:

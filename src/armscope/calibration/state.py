@@ -13,22 +13,14 @@ from armscope.robot import Arm, Chain
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Values of everything that may be free.
+    """Values of everything that may be free."""
 
-    Attributes:
-        rotations, translations: (R, 3, 3), (R, 3) measurement frame from arm base, per base frame.
-        tools: (K, 3) offsets in the last frame, m.
-        constants: (P,) added to the arm's constants, m and rad.
-        compliances: (m,) rad/(N m), angle += compliance * load.
-        tool_rotations: (K, 3, 3) last frame from measured tool frame; counts only where orientations are used.
-    """
-
-    rotations: Array
-    translations: Array
-    tools: Array
-    constants: Array
-    compliances: Array
-    tool_rotations: Array
+    rotations: Array  # (R, 3, 3) measurement frame from arm base, per base frame
+    translations: Array  # (R, 3) measurement frame from arm base, per base frame
+    tools: Array  # (K, 3) offsets in the last frame, m
+    constants: Array  # (P,) added to the arm's constants, m and rad
+    compliances: Array  # (m,) rad/(N m), angle += compliance * load
+    tool_rotations: Array  # (K, 3, 3) last frame from measured tool frame; counts only where orientations are used
 
     def moved(self, step: Array) -> State:
         """A step in the order of `SetUp.names`; base steps are twists in the base's own axes."""

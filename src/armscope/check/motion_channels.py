@@ -26,16 +26,11 @@ OF_MASSES = "what moves the stated masses"
 
 @dataclass(frozen=True)
 class Channels:
-    """Columns of torque or current, by joint.
-
-    Attributes:
-        gains: N m (N) per unit of each joint's column.
-        currents: whether they are amperes.
-    """
+    """Columns of torque or current, by joint."""
 
     names: tuple[str, ...]
-    gains: tuple[float, ...]
-    currents: bool = False
+    gains: tuple[float, ...]  # N m (N) per unit of each joint's column
+    currents: bool = False  # whether they are amperes
 
     @classmethod
     def of(cls, motions: Motions, arm: MovingArm) -> Channels:

@@ -25,19 +25,12 @@ from armscope.verdict.wording import times
 
 @dataclass(frozen=True)
 class _Found:
-    """Joints that are counted the other way round.
+    """Joints that are counted the other way round."""
 
-    Attributes:
-        joints: in the order in which they say most.
-        alone: of these, whose torque is counted as it should be.
-        either: any of which may be it in the place of the only one.
-        gained: logarithm of how many times less of all torques they leave.
-    """
-
-    joints: Sequence[int]
-    alone: Sequence[int]
-    either: Sequence[int]
-    gained: float
+    joints: Sequence[int]  # in the order in which they say most
+    alone: Sequence[int]  # of these, whose torque is counted as it should be
+    either: Sequence[int]  # any of which may be it in the place of the only one
+    gained: float  # logarithm of how many times less of all torques they leave
 
 
 def left_of_either_sign(samples: Samples, arm: MovingArm) -> float:

@@ -157,17 +157,12 @@ def mistakes(samples: Samples, arm: MovingArm, of: Channels) -> list[Suspicion]:
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A mistake that is taken to be there, and what is left to tell once it is mended.
-
-    Attributes:
-        odd: all that is told of single channels beside it.
-        reading: that is still needed.
-    """
+    """A mistake that is taken to be there, and what is left to tell once it is mended."""
 
     table: _Table
     first: list[Suspicion]
-    odd: list[Suspicion]
-    reading: OtherReading | None = None
+    odd: list[Suspicion]  # all that is told of single channels beside it
+    reading: OtherReading | None = None  # that is still needed
 
     @property
     def settles(self) -> bool:

@@ -59,16 +59,11 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class OtherReading:
-    """What a table means if it is not what its columns say.
-
-    Attributes:
-        samples: as they are then.
-        order: of the channels of torque, by joint; empty as they stand.
-    """
+    """What a table means if it is not what its columns say."""
 
     told: tuple[Suspicion, ...]
-    samples: Samples
-    order: tuple[int, ...] = ()
+    samples: Samples  # as they are then
+    order: tuple[int, ...] = ()  # of the channels of torque, by joint; empty as they stand
 
 
 def ordinary_columns(samples: Samples, j: int) -> Array:

@@ -20,19 +20,12 @@ from armscope.verdict.schema import ANOTHER_MODEL
 
 @dataclass(frozen=True)
 class NominalFit:
-    """How well an arm of the library explains a table once base and tool are fitted.
+    """How well an arm of the library explains a table once base and tool are fitted."""
 
-    Attributes:
-        name: by which `armscope init` writes the arm.
-        title: the arm's name in full.
-        rms_mm: RMS distance that is left, mm.
-        explains: whether that is a small share of the points' spread, as the check's own rule says.
-    """
-
-    name: str
-    title: str
-    rms_mm: float
-    explains: bool
+    name: str  # by which `armscope init` writes the arm
+    title: str  # the arm's name in full
+    rms_mm: float  # RMS distance that is left, mm
+    explains: bool  # whether that is a small share of the points' spread, as the check's own rule says
 
 
 def better_arm(arm: Arm, recordings: Recordings, rms_m: float) -> list[Suspicion]:

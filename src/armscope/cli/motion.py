@@ -26,22 +26,15 @@ PAGES = ("report.html", "work-order.html")
 
 @dataclass(frozen=True)
 class MotionOptions:
-    """What a user asks of a diagnosis of a motion.
+    """What a user asks of a diagnosis of a motion."""
 
-    Attributes:
-        cutoff: Hz, or None.
-        held_out, runs: runs that are held out, and runs that are used (none: all).
-        as_json: whether verdict.json is printed in place of words.
-        report: whether the page is written.
-        anyway: go on though the check says that the table is unusable.
-    """
-
-    cutoff: float | None
+    cutoff: float | None  # Hz, or None
+    # held_out, runs: runs that are held out, and runs that are used (none: all)
     held_out: list[str]
     runs: list[str]
-    as_json: bool
-    report: bool
-    anyway: bool
+    as_json: bool  # whether verdict.json is printed in place of words
+    report: bool  # whether the page is written
+    anyway: bool  # go on though the check says that the table is unusable
 
 
 def diagnose_motions(table: Path, robot: Path, output: Path, asked: MotionOptions, tell: Tell) -> Answer:

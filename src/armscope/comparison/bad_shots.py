@@ -21,15 +21,10 @@ from armscope.recordings import Recordings
 
 
 class Weighed(Protocol):
-    """Recordings whose rows count by weights: `armscope.comparison.shared_model`.
+    """Recordings whose rows count by weights: `armscope.comparison.shared_model`."""
 
-    Attributes:
-        group: (3N,) number of the recording that each is of.
-        weight: (3N,) by which each counts; ``robust``: without what whole recordings count by.
-    """
-
-    group: Indices
-    weight: Array
+    group: Indices  # (3N,) number of the recording that each is of
+    weight: Array  # (3N,) by which each counts; ``robust``: without what whole recordings count by
     robust: Array
 
     def alone(self, number: int) -> Self:
@@ -53,16 +48,12 @@ class Weighed(Protocol):
 
 @dataclass(frozen=True)
 class BadShot:
-    """A row that counts for little.
-
-    Attributes:
-        residual_mm: how far it lies from what the rest of its recording says.
-    """
+    """A row that counts for little."""
 
     recording: str
     run: str
     id: str
-    residual_mm: float
+    residual_mm: float  # how far it lies from what the rest of its recording says
 
     def __str__(self) -> str:
         run = f", {self.run}" if self.run else ""

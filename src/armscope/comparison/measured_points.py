@@ -24,26 +24,20 @@ from armscope.verdict.wording import decimals_for
 
 @dataclass(frozen=True)
 class MeasuredPoint:
-    """Where a target of a recording sits in the arm's last frame.
+    """Where a target of a recording sits in the arm's last frame."""
 
-    Attributes:
-        recording, target: which; the target is empty where the table names none.
-        point_mm, stderr_mm: its place as `tool_mm` states it, and how sure that is.
-        than: the recording before it that has a target of that name; empty for the first one.
-        moved_mm, interval_95: how far from its place there, and between which distances; NaN for the first one.
-        is_moved: that it surely sits elsewhere than there, by more than a reflector that is put on again.
-        may_be_zero: that it moved about the last joint's axis, as if that joint's zero had.
-    """
-
+    # recording, target: which; the target is empty where the table names none
     recording: str
     target: str
+    # point_mm, stderr_mm: its place as `tool_mm` states it, and how sure that is
     point_mm: tuple[float, ...]
     stderr_mm: tuple[float, ...]
-    than: str = ""
+    than: str = ""  # the recording before it that has a target of that name; empty for the first one
+    # moved_mm, interval_95: how far from its place there, and between which distances; NaN for the first one
     moved_mm: float = math.nan
     interval_95: tuple[float, float] = (math.nan, math.nan)
-    is_moved: bool = False
-    may_be_zero: bool = False
+    is_moved: bool = False  # that it surely sits elsewhere than there, by more than a reflector that is put on again
+    may_be_zero: bool = False  # that it moved about the last joint's axis, as if that joint's zero had
 
     def told(self, also: bool = False) -> str:
         """How far it sits from where it was, as a clause; shorter where another one was told before."""

@@ -25,18 +25,12 @@ from armscope.verdict.wording import millimetres, read_parameter
 
 @dataclass(frozen=True)
 class Remedy:
-    """What to do, in words.
+    """What to do, in words."""
 
-    Attributes:
-        physics: what the cause is.
-        why: where to look for why it changed.
-        confirm: how to confirm it on the arm.
-        instruction, rule: what is done about it, by how much; and what else can be done.
-    """
-
-    physics: str
-    why: str
-    confirm: str
+    physics: str  # what the cause is
+    why: str  # where to look for why it changed
+    confirm: str  # how to confirm it on the arm
+    # instruction, rule: what is done about it, by how much; and what else can be done
     instruction: str
     rule: str
 

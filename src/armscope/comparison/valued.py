@@ -17,24 +17,19 @@ WHOLE_RANGE = {"m": PLAUSIBLE.length_m, "rad": PLAUSIBLE.zero_rad, "rad/rad": PL
 
 @dataclass(frozen=True)
 class Valued:
-    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval.
-
-    Attributes:
-        since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
-            where all share what these poses leave open.
-        difference: with the change less without it.
-        plausible: how large it is on arms.
-    """
+    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval."""
 
     name: str
     unit: str
     values: tuple[float, ...]
     stderrs: tuple[float, ...]
+    # since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
+    # where all share what these poses leave open
     since_first: tuple[float, ...]
     since_first_stderrs: tuple[float, ...]
-    difference: float
+    difference: float  # with the change less without it
     interval_95: tuple[float, float]
-    plausible: float = math.inf
+    plausible: float = math.inf  # how large it is on arms
 
     @property
     def left_open(self) -> bool:

@@ -20,19 +20,12 @@ from armscope.robot import Arm, chain
 
 @dataclass(frozen=True, eq=False)
 class Turning:
-    """The orientation's error: measured = exp(r) * nominal, with a rotation vector r in the arm's base axes.
+    """The orientation's error: measured = exp(r) * nominal, with a rotation vector r in the arm's base axes."""
 
-    Attributes:
-        features: the terms, of the same inputs as the position's.
-        coefficients: (regions, 3, n) mrad per unit of the terms.
-        rms_mrad: (3,) residual on the identification rows.
-        tool: (3, 3) the measured tool frame seen from the arm's last frame.
-    """
-
-    features: FeatureSet | ProductFeatures
-    coefficients: Array
-    rms_mrad: Array
-    tool: Array
+    features: FeatureSet | ProductFeatures  # the terms, of the same inputs as the position's
+    coefficients: Array  # (regions, 3, n) mrad per unit of the terms
+    rms_mrad: Array  # (3,) residual on the identification rows
+    tool: Array  # (3, 3) the measured tool frame seen from the arm's last frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,28 +33,17 @@ class ErrorModel:
     """Real tool point = nominal tool point + error(nominal position or motor angles), in the arm's base frame (Eq. 8).
 
     With a `Turning`, the same for the orientation.
-
-    Attributes:
-        arm: the nominal arm (with the fitted tool offset, where frames were registered).
-        features: the model's terms.
-        coefficients: (regions, 3, n) mm per unit of the terms.
-        cut: the borders of the regions; None for a single one.
-        method: how they were found.
-        rms_mm: (3,) residual on the identification rows.
-        base: measurement frame from base frame.
-        domain: where it was identified.
-        turning: the orientation's error; None where no orientations were measured.
     """
 
-    arm: Arm
-    features: FeatureSet | ProductFeatures
-    coefficients: Array
-    method: str
-    rms_mm: Array
-    base: Base
-    domain: Domain
-    cut: Cut | None = None
-    turning: Turning | None = None
+    arm: Arm  # the nominal arm (with the fitted tool offset, where frames were registered)
+    features: FeatureSet | ProductFeatures  # the model's terms
+    coefficients: Array  # (regions, 3, n) mm per unit of the terms
+    method: str  # how they were found
+    rms_mm: Array  # (3,) residual on the identification rows
+    base: Base  # measurement frame from base frame
+    domain: Domain  # where it was identified
+    cut: Cut | None = None  # the borders of the regions; None for a single one
+    turning: Turning | None = None  # the orientation's error; None where no orientations were measured
 
     @property
     def name(self) -> str:

@@ -24,17 +24,11 @@ from armscope.robot.newton_steps import damping, least_turns, shortened, smalles
 
 @dataclass(frozen=True, eq=False)
 class Wanted:
-    """Where the tool should be, N rows in base axes.
+    """Where the tool should be, N rows in base axes."""
 
-    Attributes:
-        points: (N, 3) m.
-        rotations: (N, 3, 3) of the last frame, or None where the orientation is free.
-        reachable: directions in which the arm can be led; None for all.
-    """
-
-    points: Array
-    rotations: Array | None = None
-    reachable: Reachable | None = None
+    points: Array  # (N, 3) m
+    rotations: Array | None = None  # (N, 3, 3) of the last frame, or None where the orientation is free
+    reachable: Reachable | None = None  # directions in which the arm can be led; None for all
 
     def __len__(self) -> int:
         return len(self.points)
@@ -69,21 +63,13 @@ class Wanted:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Commands for N rows.
+    """Commands for N rows."""
 
-    Attributes:
-        angles: (N, m) rad; the last iterate where not converged.
-        converged: (N,) whether the tool is where it should be (1e-9 m; turns by the arm's lever).
-        limit: (N,) number of a motor (from 1) whose limit the row would break; 0 for none.
-        singular: (N,) smallest singular value of the scaled Jacobian (m/rad over the lever).
-        iterations: of the row that took most.
-    """
-
-    angles: Array
-    converged: NDArray[np.bool_]
-    limit: Indices
-    singular: Array
-    iterations: int
+    angles: Array  # (N, m) rad; the last iterate where not converged
+    converged: NDArray[np.bool_]  # (N,) whether the tool is where it should be (1e-9 m; turns by the arm's lever)
+    limit: Indices  # (N,) number of a motor (from 1) whose limit the row would break; 0 for none
+    singular: Array  # (N,) smallest singular value of the scaled Jacobian (m/rad over the lever)
+    iterations: int  # of the row that took most
 
 
 def weakest(wanted: Wanted, pose: ToolPose, free: NDArray[np.bool_], arm_lever: float) -> Array:

@@ -25,17 +25,13 @@ Frame = Literal["base", "measurement"]
 
 @dataclass(frozen=True, eq=False)
 class WantedPath:
-    """N rows of a path.
+    """N rows of a path."""
 
-    Attributes:
-        table: the rows as recordings without measurements: angles (where given), context, runs, targets, orientations.
-        points: (N, 3) wanted points, m, in `frame`; None for a joint path: where the nominal arm's tool would be.
-        has_angles: whether the table gives motor angles: the wanted posture, or the branch to solve on.
-    """
-
+    # the rows as recordings without measurements: angles (where given), context, runs, targets, orientations
     table: Recordings
+    # (N, 3) wanted points, m, in `frame`; None for a joint path: where the nominal arm's tool would be
     points: Array | None
-    has_angles: bool
+    has_angles: bool  # whether the table gives motor angles: the wanted posture, or the branch to solve on
 
     def __len__(self) -> int:
         return len(self.table)

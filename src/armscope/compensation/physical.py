@@ -32,27 +32,19 @@ WHAT = "domain.json of `armscope diagnose`"
 
 @dataclass(frozen=True, eq=False)
 class Identified:
-    """The recordings that a physical model was found on.
+    """The recordings that a physical model was found on."""
 
-    Attributes:
-        arm: the arm's name.
-        domain: range of motor angles, and of payload and temperature where recorded.
-        payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
-        time_s: first and last, where recorded.
-        torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
-        payload_left_out: whether some rows stated no payload where others did: the model took it for none.
-        held_out_mm: how well rows that took no part were met, RMS of the distance, noise included; None: not known.
-        many_fit_nothing: whether more of the rows fit nothing of the model than bad shots would.
-    """
-
-    arm: str
-    domain: Domain
+    arm: str  # the arm's name
+    domain: Domain  # range of motor angles, and of payload and temperature where recorded
+    # whether rows carried a payload, and which one where it never changed: None for no column
     payload_kg: tuple[float, float] | None
-    time_s: tuple[float, float] | None = None
+    time_s: tuple[float, float] | None = None  # first and last, where recorded
+    # (m, p) recorded torque of each motor by the static torque regressor, where recorded
     torque_weights: Array | None = None
-    payload_left_out: bool = False
+    payload_left_out: bool = False  # whether some rows stated no payload where others did: the model took it for none
+    # how well rows that took no part were met, RMS of the distance, noise included; None: not known
     held_out_mm: float | None = None
-    many_fit_nothing: bool = False
+    many_fit_nothing: bool = False  # whether more of the rows fit nothing of the model than bad shots would
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""

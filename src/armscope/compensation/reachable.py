@@ -16,15 +16,12 @@ from armscope.robot import Arm, chain
 
 @dataclass(frozen=True, eq=False)
 class Reachable:
-    """Directions of the base in which an arm can be commanded.
+    """Directions of the base in which an arm can be commanded."""
 
-    Attributes:
-        shifts, turns: (k, 3) orthonormal, in which its tool can be moved, and about which it can be turned.
-        no_shifts, no_turns: (3 - k, 3) the others.
-    """
-
+    # shifts, turns: (k, 3) orthonormal, in which its tool can be moved, and about which it can be turned
     shifts: Array
     turns: Array
+    # no_shifts, no_turns: (3 - k, 3) the others
     no_shifts: Array
     no_turns: Array
 

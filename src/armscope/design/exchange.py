@@ -97,17 +97,11 @@ def _log_volume(whitened: Array, rows: Rows) -> float:
 
 @dataclass(eq=False)
 class _Information:
-    """Inverse information of some poses, and what each of N candidates varies by under it.
+    """Inverse information of some poses, and what each of N candidates varies by under it."""
 
-    Attributes:
-        whitened: (3, N, p).
-        inverse: (p, p).
-        variance: (6, N) upper triangle of D_c: xx, xy, xz, yy, yz, zz.
-    """
-
-    whitened: Array
-    inverse: Array
-    variance: Array
+    whitened: Array  # (3, N, p)
+    inverse: Array  # (p, p)
+    variance: Array  # (6, N) upper triangle of D_c: xx, xy, xz, yy, yz, zz
 
     @staticmethod
     def of(whitened: Array, information: Array) -> _Information:

@@ -16,32 +16,21 @@ from armscope.errormodels.regions import Cut, blended, divide, fit_regions, halv
 
 @dataclass(frozen=True)
 class ModelSet:
-    """Which models are fitted.
-
-    Attributes:
-        products: with a sparse choice of products.
-        regions: divided into so many blended regions.
-    """
+    """Which models are fitted."""
 
     plain: tuple[ModelSpec, ...] = ()
-    products: tuple[ModelSpec, ...] = ()
-    regions: tuple[tuple[ModelSpec, int], ...] = ()
+    products: tuple[ModelSpec, ...] = ()  # with a sparse choice of products
+    regions: tuple[tuple[ModelSpec, int], ...] = ()  # divided into so many blended regions
 
 
 @dataclass(frozen=True, eq=False)
 class ExtendedModel:
-    """A model fitted by least squares.
+    """A model fitted by least squares."""
 
-    Attributes:
-        name: the model's name and how it is extended.
-        coefficients: (regions, axes, terms) mm per unit of a term.
-        cut: the borders of the regions; None for a single one.
-    """
-
-    name: str
+    name: str  # the model's name and how it is extended
     features: FeatureSet | ProductFeatures
-    coefficients: Array
-    cut: Cut | None = None
+    coefficients: Array  # (regions, axes, terms) mm per unit of a term
+    cut: Cut | None = None  # the borders of the regions; None for a single one
 
     def predict(self, inputs: ArrayLike) -> Array:
         """(N, axes) mm at inputs (N, k), mm or rad."""

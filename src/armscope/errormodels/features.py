@@ -92,17 +92,12 @@ PAPER_MODELS = (FDP_CI, FDP_AI, SDP_CI, SDP_AI, POLYNOMIAL_4_AI, FOURIER_2_AI)
 
 @dataclass(frozen=True)
 class FeatureSet:
-    """The terms of one model for a given set of inputs.
-
-    Attributes:
-        inputs: the names of all k inputs: px, py, pz, or theta1 ... thetak.
-        moving: which of them move in the identification rows and so have terms.
-        wavelengths_mm: of the first harmonic per input, for a Fourier series in millimetres; else None.
-    """
+    """The terms of one model for a given set of inputs."""
 
     spec: ModelSpec
-    inputs: tuple[str, ...]
-    moving: tuple[bool, ...]
+    inputs: tuple[str, ...]  # the names of all k inputs: px, py, pz, or theta1 ... thetak
+    moving: tuple[bool, ...]  # which of them move in the identification rows and so have terms
+    # of the first harmonic per input, for a Fourier series in millimetres; else None
     wavelengths_mm: tuple[float, ...] | None = None
 
     @property

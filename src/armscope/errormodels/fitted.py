@@ -25,44 +25,28 @@ class Layout(StrEnum):
 
 @dataclass(frozen=True)
 class SwarmFit:
-    """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms.
+    """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms."""
 
-    Attributes:
-        label: whose rows: the robot, recording or sub-volume.
-        features: the model's terms.
-        basis: the coordinates that the swarm searched in.
-        method: "swarm" or "random search".
-        seeds: the seeds, S.
-        axes: the names of the errors' axes, A: ("x", "y", "z") or ("error",).
-        dropped: terms whose coefficients are 0 because they can't be told from earlier ones.
-        coefficients: in raw units (mm per unit of the term), S x A x n.
-        fitness_mm: RMS residual on the identification rows, S x A.
-        layout: "per axis" (a swarm for each axis) or "joint" (one swarm in 3 n dimensions, as the paper describes).
-        least_squares: the least-squares coefficients, A x n.
-        least_squares_mm: their RMS residual, A.
-        reasons: why each swarm stopped, S x H of `StopReason`; H swarms per seed: A, or one for all axes together.
-        iterations: how many iterations each used, S x H.
-        history_mm: what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual
-            of its axis, or of the error vector (3D) in the joint layout.
-        rows: the number of identification rows.
-    """
-
-    label: str
-    features: FeatureSet
-    basis: BasisKind
-    method: str
-    seeds: tuple[int, ...]
-    axes: tuple[str, ...]
-    dropped: tuple[str, ...]
-    coefficients: Array
-    fitness_mm: Array
-    least_squares: Array
-    least_squares_mm: Array
+    label: str  # whose rows: the robot, recording or sub-volume
+    features: FeatureSet  # the model's terms
+    basis: BasisKind  # the coordinates that the swarm searched in
+    method: str  # "swarm" or "random search"
+    seeds: tuple[int, ...]  # the seeds, S
+    axes: tuple[str, ...]  # the names of the errors' axes, A: ("x", "y", "z") or ("error",)
+    dropped: tuple[str, ...]  # terms whose coefficients are 0 because they can't be told from earlier ones
+    coefficients: Array  # in raw units (mm per unit of the term), S x A x n
+    fitness_mm: Array  # RMS residual on the identification rows, S x A
+    least_squares: Array  # the least-squares coefficients, A x n
+    least_squares_mm: Array  # their RMS residual, A
+    # why each swarm stopped, S x H of `StopReason`; H swarms per seed: A, or one for all axes together
     reasons: NDArray[np.object_]
-    iterations: NDArray[np.int64]
+    iterations: NDArray[np.int64]  # how many iterations each used, S x H
+    # what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual of its axis,
+    # or of the error vector (3D) in the joint layout
     history_mm: Array
-    rows: int
+    rows: int  # the number of identification rows
     particles: int
+    # "per axis" (a swarm for each axis) or "joint" (one swarm in 3 n dimensions, as the paper describes)
     layout: Layout = Layout.PER_AXIS
 
     @property

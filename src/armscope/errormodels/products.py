@@ -37,18 +37,13 @@ CARRIES_NOTHING = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class ProductFeatures:
-    """The chosen products, in the form of `FeatureSet`; k inputs, n terms.
+    """The chosen products, in the form of `FeatureSet`; k inputs, n terms."""
 
-    Attributes:
-        spec: family, total order, and space of the inputs.
-        centre, half_range: (k,) of the identification rows; inputs that stand still have half_range 0 and no factor.
-        terms: in the order in which they entered; () is the constant.
-    """
-
-    spec: ModelSpec
+    spec: ModelSpec  # family, total order, and space of the inputs
+    # centre, half_range: (k,) of the identification rows; inputs that stand still have half_range 0 and no factor
     centre: Array
     half_range: Array
-    terms: tuple[Term, ...]
+    terms: tuple[Term, ...]  # in the order in which they entered; () is the constant
 
     @property
     def inputs(self) -> tuple[str, ...]:

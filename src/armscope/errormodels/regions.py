@@ -29,17 +29,12 @@ ROWS_PER_TERM = 1.5
 
 @dataclass(frozen=True)
 class Cut:
-    """A border between two regions, each of which may be divided again.
-
-    Attributes:
-        at: where, in its unit.
-        half_width: of the blended band.
-        below, above: how the sides are divided; None: not.
-    """
+    """A border between two regions, each of which may be divided again."""
 
     axis: int
-    at: float
-    half_width: float
+    at: float  # where, in its unit
+    half_width: float  # of the blended band
+    # below, above: how the sides are divided; None: not
     below: Cut | None = None
     above: Cut | None = None
 

@@ -20,21 +20,14 @@ FORBIDDEN = set("/\\") | {"\0"}
 
 @dataclass(frozen=True)
 class Member:
-    """One diagnosis of a fleet.
+    """One diagnosis of a fleet."""
 
-    Attributes:
-        arm: its name, of a folder of its verdicts, too.
-        type: arms of one type are compared.
-        date: of the recordings, as the page orders them; may be empty.
-        run: of the recordings that is diagnosed alone; empty: all of them together.
-    """
-
-    arm: str
-    type: str
+    arm: str  # its name, of a folder of its verdicts, too
+    type: str  # arms of one type are compared
     robot: Path
     recordings: Path
-    date: str = ""
-    run: str = ""
+    date: str = ""  # of the recordings, as the page orders them; may be empty
+    run: str = ""  # of the recordings that is diagnosed alone; empty: all of them together
 
     @property
     def name(self) -> str:

@@ -21,17 +21,12 @@ class Channel(ABC):
 
     The first channel of a diagnosis is its reference: noise, sizes and thresholds are told in its thousandths (mm), and
     every other channel is scaled by the ratio of their robust noises.
-
-    Attributes:
-        unit: of residuals and of sensitivities per unit of a direction.
-        width: how many numbers a row holds.
-        floor: noise below which nothing is believed: residuals that are smaller are as good as that.
     """
 
     name: str
-    unit: str
-    width: int
-    floor: float
+    unit: str  # of residuals and of sensitivities per unit of a direction
+    width: int  # how many numbers a row holds
+    floor: float  # noise below which nothing is believed: residuals that are smaller are as good as that
 
     @abstractmethod
     def measured(self, recordings: Recordings) -> NDArray[np.bool_]:
@@ -72,14 +67,11 @@ class Channel(ABC):
 
 @dataclass(frozen=True, eq=False)
 class ChannelResiduals:
-    """What a model leaves of N rows, channel by channel.
+    """What a model leaves of N rows, channel by channel."""
 
-    Attributes:
-        by_channel: (N, width) in each channel's unit, NaN where not measured; the reference comes first.
-        own_values: how many values of the model only this channel sees; none where it is not named.
-    """
-
+    # (N, width) in each channel's unit, NaN where not measured; the reference comes first
     by_channel: Mapping[Channel, Array]
+    # how many values of the model only this channel sees; none where it is not named
     own_values: Mapping[Channel, int] = field(default_factory=dict)
 
     @property

@@ -31,15 +31,10 @@ MEANINGS = {
 
 @dataclass(frozen=True)
 class Reason:
-    """What decides a claim.
+    """What decides a claim."""
 
-    Attributes:
-        errors: names, the strongest first.
-        share: of the number's variance over the robots, explained on robots held out.
-    """
-
-    errors: tuple[str, ...]
-    share: float
+    errors: tuple[str, ...]  # names, the strongest first
+    share: float  # of the number's variance over the robots, explained on robots held out
 
 
 def reasons(per_robot: pd.DataFrame, geometric: pd.DataFrame) -> pd.DataFrame:

@@ -24,25 +24,16 @@ JOINTLY = "several at once"
 
 @dataclass(frozen=True, eq=False)
 class Varied:
-    """The other values of each assumption.
-
-    Attributes:
-        tolerances: factors on all sizes.
-        margins_rad: by which the poses' joint ranges are wider than the paths'.
-        motor_6_rad: ranges of theta6, +-.
-        rises_mm: of trajectories II and III.
-        repeats_mm: how well the arm repeats, 1-sigma.
-        together: how many scenarios of the joint design.
-    """
+    """The other values of each assumption."""
 
     arms: tuple[Arm, ...]
-    tolerances: tuple[float, ...]
-    margins_rad: tuple[float, ...]
-    motor_6_rad: tuple[float, ...]
+    tolerances: tuple[float, ...]  # factors on all sizes
+    margins_rad: tuple[float, ...]  # by which the poses' joint ranges are wider than the paths'
+    motor_6_rad: tuple[float, ...]  # ranges of theta6, +-
     corners_mm: tuple[Corners, ...]
-    rises_mm: tuple[float, ...]
-    repeats_mm: tuple[float, ...]
-    together: int
+    rises_mm: tuple[float, ...]  # of trajectories II and III
+    repeats_mm: tuple[float, ...]  # how well the arm repeats, 1-sigma
+    together: int  # how many scenarios of the joint design
     seed: int
 
     def levels(self) -> dict[str, list[tuple[str, Change]]]:

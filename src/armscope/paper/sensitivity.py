@@ -29,20 +29,15 @@ COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "r
 
 @dataclass(frozen=True)
 class Fitting:
-    """How a scenario's robots are fitted.
-
-    Attributes:
-        settings, basis, layout: of the improved method.
-        seeds: of the swarms, of either method.
-        everything: also random search and cross-validated extensions, which take most of the time.
-    """
+    """How a scenario's robots are fitted."""
 
     specs: tuple[ModelSpec, ...]
+    # settings, basis, layout: of the improved method
     settings: SwarmSettings
     basis: str
     layout: str
-    seeds: Sequence[int]
-    everything: bool = False
+    seeds: Sequence[int]  # of the swarms, of either method
+    everything: bool = False  # also random search and cross-validated extensions, which take most of the time
 
 
 def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:

@@ -39,24 +39,17 @@ class Sizes:
 
 @dataclass(frozen=True, eq=False)
 class StudyPlan:
-    """What a study assumes.
-
-    Attributes:
-        sizes: of its geometric errors.
-        paths, poses: where it is measured.
-        repeat_m: how well the arm itself repeats, 1-sigma per axis and point, m.
-        ensemble: how many robots are drawn besides the anchored one.
-        seed: of poses, noise and robots.
-    """
+    """What a study assumes."""
 
     arm: Arm
-    sizes: Sizes
+    sizes: Sizes  # of its geometric errors
+    # paths, poses: where it is measured
     paths: PlannedPaths
     poses: PlannedPoses
     tracker: Tracker
-    repeat_m: float
-    ensemble: int
-    seed: int
+    repeat_m: float  # how well the arm itself repeats, 1-sigma per axis and point, m
+    ensemble: int  # how many robots are drawn besides the anchored one
+    seed: int  # of poses, noise and robots
 
     @property
     def errors(self) -> GeometricErrors:

@@ -34,25 +34,15 @@ class VirtualStudy:
 
 @dataclass(frozen=True)
 class PlannedPaths:
-    """The three test trajectories (sections 7.1, 7.2), mm in the base frame.
+    """The three test trajectories (sections 7.1, 7.2), mm in the base frame."""
 
-    Attributes:
-        corners_mm: of trajectory I, the first at (1100, 800, 600).
-        points_per_side: 50.
-        spiral_starts_mm: of II and III.
-        enlargement_mm: W of Eqs. (21)-(22), 20.
-        turns_pi: phi runs from 0 to this many times pi, 5.
-        spiral_points: 200.
-        rise_mm: change of the third coordinate (z of II, x of III) along the whole spiral.
-    """
-
-    corners_mm: tuple[Point, Point, Point, Point]
-    points_per_side: int
-    spiral_starts_mm: tuple[Point, Point]
-    enlargement_mm: float
-    turns_pi: float
-    spiral_points: int
-    rise_mm: float
+    corners_mm: tuple[Point, Point, Point, Point]  # of trajectory I, the first at (1100, 800, 600)
+    points_per_side: int  # 50
+    spiral_starts_mm: tuple[Point, Point]  # of II and III
+    enlargement_mm: float  # W of Eqs. (21)-(22), 20
+    turns_pi: float  # phi runs from 0 to this many times pi, 5
+    spiral_points: int  # 200
+    rise_mm: float  # change of the third coordinate (z of II, x of III) along the whole spiral
 
     def by_name(self) -> dict[str, Array]:
         """Name -> (N, 3) tool points in the base frame, mm."""
@@ -66,19 +56,12 @@ class PlannedPaths:
 
 @dataclass(frozen=True)
 class PlannedPoses:
-    """The identification poses.
+    """The identification poses."""
 
-    Attributes:
-        count: 85.
-        candidates: how many, spread evenly over the ranges, to choose from.
-        margin_rad: by which the paths' joint ranges are widened to both sides.
-        motor_6_rad: theta6 ranges over +- this instead (the paths hardly move it).
-    """
-
-    count: int
-    candidates: int
-    margin_rad: float
-    motor_6_rad: float
+    count: int  # 85
+    candidates: int  # how many, spread evenly over the ranges, to choose from
+    margin_rad: float  # by which the paths' joint ranges are widened to both sides
+    motor_6_rad: float  # theta6 ranges over +- this instead (the paths hardly move it)
 
 
 def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:

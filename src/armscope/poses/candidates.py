@@ -18,17 +18,11 @@ from armscope.robot import Arm
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Possible poses.
+    """Possible poses."""
 
-    Attributes:
-        table: N rows: motor angles, side of approach, payload.
-        drawn: how many poses were drawn.
-        refused: how many of those for each of `REASONS`.
-    """
-
-    table: Recordings
-    drawn: int
-    refused: Mapping[str, int]
+    table: Recordings  # N rows: motor angles, side of approach, payload
+    drawn: int  # how many poses were drawn
+    refused: Mapping[str, int]  # how many of those for each of `REASONS`
 
     def __len__(self) -> int:
         return len(self.table)

@@ -25,18 +25,12 @@ from armscope.robot import Arm, Chain, chain
 
 @dataclass(frozen=True, eq=False)
 class Surroundings:
-    """What limits the poses besides the joints.
+    """What limits the poses besides the joints."""
 
-    Attributes:
-        radius: of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`).
-        floor: height of a plane in the base frame below which nothing may be, m; None: there is none.
-        tracker: (3,) where the tracker stands in the base frame, m; None: it sees everything.
-        up: (3,) of length one in the base frame: the way in which heights count.
-    """
-
-    radius: float | None = None
-    floor: float | None = None
-    tracker: Array | None = None
+    radius: float | None = None  # of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`)
+    floor: float | None = None  # height of a plane in the base frame below which nothing may be, m; None: there is none
+    tracker: Array | None = None  # (3,) where the tracker stands in the base frame, m; None: it sees everything
+    # (3,) of length one in the base frame: the way in which heights count
     up: Array = field(default_factory=lambda: UP)
 
     def radius_of(self, arm: Arm) -> float:

@@ -107,19 +107,12 @@ def place(location: str) -> str:
 
 @dataclass(frozen=True)
 class Aim:
-    """One of the aims.
+    """One of the aims."""
 
-    Attributes:
-        text: as the aims say it.
-        table: which table of cases it is counted in: worlds, effects, names or intervals.
-        column: the column of that table that says right or wrong.
-        bounds: the least and the most that the rate may be.
-    """
-
-    text: str
-    table: str
-    column: str
-    bounds: tuple[float, float]
+    text: str  # as the aims say it
+    table: str  # which table of cases it is counted in: worlds, effects, names or intervals
+    column: str  # the column of that table that says right or wrong
+    bounds: tuple[float, float]  # the least and the most that the rate may be
     among: Callable[[pd.DataFrame], pd.Series]
 
 

@@ -28,26 +28,16 @@ from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized
 
 @dataclass(frozen=True, eq=False)
 class Planted:
-    """An effect in real recordings.
-
-    Attributes:
-        size: RMS at the tool in multiples of what the arm leaves unexplained.
-        rms: per axis, after the frames, over the training rows, m.
-        moved: (N, 3) displacement of every row, measurement frame, m.
-        turned: (N, 3, 3) turn of the tool in every row, measurement frame.
-        left: (N, 3) what frames fitted to the training rows leave of it, m.
-        visibility: noncentrality, and what else could stand in its place.
-        beyond_geometry: the part of the noncentrality that links and zeros within their tolerances can't make.
-    """
+    """An effect in real recordings."""
 
     effect: Concealed
-    size: float
-    rms: float
-    moved: Array
-    turned: Array
-    left: Array
-    visibility: Visibility
-    beyond_geometry: float
+    size: float  # RMS at the tool in multiples of what the arm leaves unexplained
+    rms: float  # per axis, after the frames, over the training rows, m
+    moved: Array  # (N, 3) displacement of every row, measurement frame, m
+    turned: Array  # (N, 3, 3) turn of the tool in every row, measurement frame
+    left: Array  # (N, 3) what frames fitted to the training rows leave of it, m
+    visibility: Visibility  # noncentrality, and what else could stand in its place
+    beyond_geometry: float  # the part of the noncentrality that links and zeros within their tolerances can't make
 
 
 @dataclass(frozen=True)

@@ -36,16 +36,13 @@ ARMSCOPE, ORIENTED, UNCORRECTED = "armscope", "armscope, orientations too", "fra
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What was found on a run.
+    """What was found on a run."""
 
-    Attributes:
-        splits: one row per model and split: run, model, split, train, test (rows), rms_mm, turn_mrad (RMS of the
-            angle between predicted and measured orientation, where orientations were learned, too).
-        names: one row per effect that a split's verdict names: run, model, split, effect, location, named_as, minor,
-            rms_at_tool_mm, title, row (of a jump of base or tool: the first id after it).
-    """
-
+    # one row per model and split: run, model, split, train, test (rows), rms_mm, turn_mrad (RMS of the angle between
+    # predicted and measured orientation, where orientations were learned, too)
     splits: pd.DataFrame
+    # one row per effect that a split's verdict names: run, model, split, effect, location, named_as, minor,
+    # rms_at_tool_mm, title, row (of a jump of base or tool: the first id after it)
     names: pd.DataFrame
 
 

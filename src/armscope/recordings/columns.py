@@ -37,22 +37,15 @@ UNITS: dict[str, float] = {
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the contract.
+    """A column of the contract."""
 
-    Attributes:
-        name: as it stands in the header; ``{j}`` is the motor's number, from 1.
-        unit: of its numbers; empty for words.
-        meaning: what it says, with sign and frame.
-        low, high: no row holds less or more.
-        rule: why, in the words of an error; says the source of the range.
-    """
-
-    name: str
-    unit: str
-    meaning: str
+    name: str  # as it stands in the header; ``{j}`` is the motor's number, from 1
+    unit: str  # of its numbers; empty for words
+    meaning: str  # what it says, with sign and frame
+    # low, high: no row holds less or more
     low: float = -POSSIBLE.number
     high: float = POSSIBLE.number
-    rule: str = ""
+    rule: str = ""  # why, in the words of an error; says the source of the range
 
     def matches(self, header: str) -> bool:
         """Whether a header is this column, small and capital letters told apart."""

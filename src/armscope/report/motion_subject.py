@@ -19,18 +19,12 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class MotionSubject:
-    """A diagnosis of a motion, and the names of its files.
-
-    Attributes:
-        source: the table's name.
-        robot: the arm's file, as the user named it.
-        folder: where the diagnosis is written, as the user named it.
-    """
+    """A diagnosis of a motion, and the names of its files."""
 
     found: MotionDiagnosis
-    source: str
-    robot: Path | str = "robot.yaml"
-    folder: Path | str = ""
+    source: str  # the table's name
+    robot: Path | str = "robot.yaml"  # the arm's file, as the user named it
+    folder: Path | str = ""  # where the diagnosis is written, as the user named it
 
     @property
     def verdict(self) -> MotionVerdict:

@@ -36,23 +36,16 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Section(Generic[S]):
-    """A section of a page; its template is <name>.html.j2 in the page's folder of templates.
-
-    Attributes:
-        link: what leads to it from the top of the page.
-        context: what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name).
-        figures: each draws what this subject has something for.
-        applies: whether the page of this verdict has it at all.
-        folded: whether it opens only when it is asked for.
-    """
+    """A section of a page; its template is <name>.html.j2 in the page's folder of templates."""
 
     name: str
-    link: str
+    link: str  # what leads to it from the top of the page
     title: str
+    # what its template is filled with, beside ``verdict`` and ``figures`` (the saved ones by name)
     context: Callable[[S], dict[str, Any]] = lambda subject: {}
-    figures: tuple[Callable[[S], Iterable[Drawn]], ...] = ()
-    applies: Callable[[Any], bool] = lambda verdict: True
-    folded: bool = False
+    figures: tuple[Callable[[S], Iterable[Drawn]], ...] = ()  # each draws what this subject has something for
+    applies: Callable[[Any], bool] = lambda verdict: True  # whether the page of this verdict has it at all
+    folded: bool = False  # whether it opens only when it is asked for
 
 
 @dataclass(frozen=True)

@@ -21,15 +21,11 @@ TINY = 1e-300
 
 @dataclass
 class Drawing:
-    """Shapes in px, y downwards; those of a lower order lie below.
-
-    Attributes:
-        alt: what it shows, for those who can't see it.
-    """
+    """Shapes in px, y downwards; those of a lower order lie below."""
 
     width: float
     height: float
-    alt: str = ""
+    alt: str = ""  # what it shows, for those who can't see it
     _shapes: list[tuple[float, str]] = field(default_factory=list, repr=False)
 
     def add(self, shape: str, order: float = 0.0) -> None:

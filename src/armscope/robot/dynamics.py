@@ -24,28 +24,19 @@ UNITS = ("kg", *("kg m",) * 3, *("kg m^2",) * 6)
 
 @dataclass(frozen=True, eq=False)
 class MovingArm:
-    """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units, N m (N where a joint slides).
-
-    Attributes:
-        model: the pinocchio model of the chain.
-        inertial: (10 n,) stated inertial parameters, `PARAMETERS` of each link.
-        actuation: (n, m) chain positions by motor positions.
-        sliding: (m,) whether a motor's position is a length.
-        gains: (m,) N m per A; NaN where not stated.
-        gain_uncertainty: (m,) 1-sigma as a share; NaN where not stated.
-        stated_background: (m, 4) torque offset (always NaN), dry friction, viscous friction and rotor inertia of the
-            drives, SI; NaN where not stated.
-        attached: bodies that are fixed to a moving link: name and (10 n,) inertial parameters of each.
-    """
+    """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units (N where it slides)."""
 
     description: RobotDescription
-    model: pin.Model
-    inertial: Array
-    actuation: Array
-    sliding: NDArray[np.bool_]
-    gains: Array
-    gain_uncertainty: Array
+    model: pin.Model  # the pinocchio model of the chain
+    inertial: Array  # (10 n,) stated inertial parameters, `PARAMETERS` of each link
+    actuation: Array  # (n, m) chain positions by motor positions
+    sliding: NDArray[np.bool_]  # (m,) whether a motor's position is a length
+    gains: Array  # (m,) N m per A; NaN where not stated
+    gain_uncertainty: Array  # (m,) 1-sigma as a share; NaN where not stated
+    # (m, 4) torque offset (always NaN), dry friction, viscous friction and rotor inertia of the drives, SI; NaN where
+    # not stated
     stated_background: Array
+    # bodies that are fixed to a moving link: name and (10 n,) inertial parameters of each
     attached: tuple[tuple[str, Array], ...] = ()
 
     @property

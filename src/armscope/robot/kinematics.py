@@ -22,20 +22,14 @@ Twists = Mapping[str, Array]
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Frames of an arm at N poses, all expressed in the base frame (rotations (.., 3, 3), origins m).
+    """Frames of an arm at N poses, all expressed in the base frame (rotations (.., 3, 3), origins m)."""
 
-    Attributes:
-        joint_rotation, joint_origin: (N, n, 3, 3), (N, n, 3) frame of joint j before it turns; column z is its axis.
-        link_rotation, link_origin: (N, n, 3, 3), (N, n, 3) link frame j: D-H frame j, which moves with joint j.
-        tool_rotation, tool: (N, 3, 3), (N, 3) orientation of the last frame and the tool point.
-    """
-
-    joint_rotation: Array
-    joint_origin: Array
-    link_rotation: Array
-    link_origin: Array
-    tool_rotation: Array
-    tool: Array
+    joint_rotation: Array  # (N, n, 3, 3) frame of joint j before it turns; column z is its axis
+    joint_origin: Array  # (N, n, 3) frame of joint j before it turns; column z is its axis
+    link_rotation: Array  # (N, n, 3, 3) link frame j: D-H frame j, which moves with joint j
+    link_origin: Array  # (N, n, 3) link frame j: D-H frame j, which moves with joint j
+    tool_rotation: Array  # (N, 3, 3) orientation of the last frame
+    tool: Array  # (N, 3) the tool point
 
     def frame(self, location: str) -> tuple[Array, Array]:
         """Rotation (N, 3, 3) and origin (N, 3) of the frame at "base", "joint j", "link j" or "tool"."""

@@ -75,26 +75,19 @@ class NextPoses:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Diagnosis(Verdict):
-    """A verdict with what only lives in memory.
+    """A verdict with what only lives in memory."""
 
-    Attributes:
-        arm: the arm's name.
-        source: the table's file.
-        recordings: the table as it was used: without the rows that can't be measurements, and without orientations
-            that are not the arm's.
-        atlas, residuals, next_poses: what a report draws (atlas.csv, predicted.csv and next_poses.csv hold most of it).
-        model: the fitted model (model.yaml).
-        seconds: how long it took.
-    """
-
-    arm: str
-    source: str
+    arm: str  # the arm's name
+    source: str  # the table's file
+    # the table as it was used: without the rows that can't be measurements, and without orientations that are not the
+    # arm's
     recordings: Recordings
+    # atlas, residuals, next_poses: what a report draws (atlas.csv, predicted.csv and next_poses.csv hold most of it)
     atlas: Atlas | None
     residuals: Residuals
     next_poses: NextPoses | None
-    model: FittedModel
-    seconds: float = 0.0
+    model: FittedModel  # the fitted model (model.yaml)
+    seconds: float = 0.0  # how long it took
 
     def after(self, seconds: float, settings: dict[str, Any]) -> Diagnosis:
         """The diagnosis with how long it took and what was asked for."""

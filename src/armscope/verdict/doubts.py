@@ -27,20 +27,15 @@ NOT_THE_ARMS = ("instrument", "drift")
 
 @dataclass(frozen=True)
 class Doubt:
-    """A cause that is not settled, as a work order tells it.
+    """A cause that is not settled, as a work order tells it."""
 
-    Attributes:
-        what, place: kind and region, no more.
-        confirm: how each reading shows itself.
-        instruction: what comes before the cure of the best reading.
-        meanwhile: what to do until then: commands by the whole model hold whichever of the arm's own causes it is, but
-            not where one is none of the arm's.
-    """
-
+    # what, place: kind and region, no more
     what: str
     place: str
-    confirm: str
-    instruction: str
+    confirm: str  # how each reading shows itself
+    instruction: str  # what comes before the cure of the best reading
+    # what to do until then: commands by the whole model hold whichever of the arm's own causes it is, but not where one
+    # is none of the arm's
     meanwhile: str
 
 

@@ -13,16 +13,12 @@ from armscope.verdict.schema import NO_BAD_SHOTS, Verdict
 
 @dataclass(frozen=True)
 class Promise:
-    """RMS per axis on rows that took no part, mm; NaN where nothing was held out.
+    """RMS per axis on rows that took no part, mm; NaN where nothing was held out."""
 
-    Attributes:
-        before: with the frames only.
-        of_all: whether rows that fit nothing are among them: so many are seldom bad shots, and an arm that is told to
-            miss as little as all others do will miss by theirs, too.
-    """
-
-    before: float
+    before: float  # with the frames only
     after: float
+    # whether rows that fit nothing are among them: so many are seldom bad shots, and an arm that is told to miss as
+    # little as all others do will miss by theirs, too
     of_all: bool
 
     @property

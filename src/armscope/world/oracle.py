@@ -21,24 +21,16 @@ DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}
 
 @dataclass(frozen=True, eq=False)
 class Oracle:
-    """One who knows every effect of a session but its size; see `oracle_rms`.
+    """One who knows every effect of a session but its size; see `oracle_rms`."""
 
-    Attributes:
-        frames: (3 N, f) what free frames can do, each column of length one.
-        known: effects of which a column of the table says how they went.
-        displaced: (3 N, k) of each of them, m, per unit of what the oracle takes to be of a size of one.
-        missing: (3 N,) readings less the nominal arm's, m.
-        seen, unseen: numbers of the coordinates of recorded and of held-out rows.
-        variance: of the noise, m^2.
-    """
-
-    frames: Array
-    known: list[Sized]
-    displaced: list[Array]
-    missing: Array
+    frames: Array  # (3 N, f) what free frames can do, each column of length one
+    known: list[Sized]  # effects of which a column of the table says how they went
+    displaced: list[Array]  # (3 N, k) of each of them, m, per unit of what the oracle takes to be of a size of one
+    missing: Array  # (3 N,) readings less the nominal arm's, m
+    # seen, unseen: numbers of the coordinates of recorded and of held-out rows
     seen: Indices
     unseen: Indices
-    variance: float
+    variance: float  # of the noise, m^2
 
     def fitted(self, without: int | None = None) -> tuple[Array, Array, float]:
         """The columns, their values, and the log evidence of the recorded rows, nats, but for what is the same for all.

@@ -12,21 +12,14 @@ from armscope.core.types import Array
 
 @dataclass(frozen=True)
 class Tracker:
-    """A tracker at a place, with the errors that the paper states; bounds "-+" are taken as one sigma.
+    """A tracker at a place, with the errors that the paper states; bounds "-+" are taken as one sigma."""
 
-    Attributes:
-        position: (3,) in the robot's base frame, m.
-        accuracy: m/m, an error of scale and of the two angles that stays the same for a whole session (10 ppm).
-        repeatability: m/m, scatter of each coordinate of each reading (5 ppm).
-        resolution: m, step of the measured distance (1.26 um).
-        readings: of which the mean is taken (100).
-    """
-
-    position: tuple[float, float, float]
+    position: tuple[float, float, float]  # (3,) in the robot's base frame, m
+    # m/m, an error of scale and of the two angles that stays the same for a whole session (10 ppm)
     accuracy: float = 10e-6
-    repeatability: float = 5e-6
-    resolution: float = 1.26e-6
-    readings: int = 100
+    repeatability: float = 5e-6  # m/m, scatter of each coordinate of each reading (5 ppm)
+    resolution: float = 1.26e-6  # m, step of the measured distance (1.26 um)
+    readings: int = 100  # of which the mean is taken (100)
 
     def measurement_errors(self, points: ArrayLike, rng: np.random.Generator) -> Array:
         """(N, 3) measured minus true position, m, for one session that measures ``points`` (N, 3), m."""

@@ -30,50 +30,34 @@ from armscope.robot.dynamics import inertial_parameters
 
 @dataclass(frozen=True, eq=False)
 class Excitation:
-    """A motion and what it is worth.
+    """A motion and what it is worth."""
 
-    Attributes:
-        arm, limits, around: what it is for.
-        shown: what any motion could show.
-        before: the scores of the random motions, median first by `value`.
-        pairs: what it tells apart; empty: everything.
-        inseparable: pairs that were asked for and that no motion tells apart.
-        lawless: pairs that were asked for, of which a cause has no law to plan a motion by.
-        torque: (m,) largest torque of the stated model along it, N m.
-        tried: motions that were looked at; `refused`: of them beyond torque limits or in collision.
-    """
-
+    # arm, limits, around: what it is for
     arm: Arm
     limits: MotionLimits
     around: Surroundings
     path: FourierPath
-    shown: Showable
-    before: MotionScore
+    shown: Showable  # what any motion could show
+    before: MotionScore  # the scores of the random motions, median first by `value`
     after: MotionScore
-    pairs: tuple[Pair, ...]
-    inseparable: tuple[Pair, ...]
-    lawless: tuple[Pair, ...]
-    torque: Array
-    tried: int
+    pairs: tuple[Pair, ...]  # what it tells apart; empty: everything
+    inseparable: tuple[Pair, ...]  # pairs that were asked for and that no motion tells apart
+    lawless: tuple[Pair, ...]  # pairs that were asked for, of which a cause has no law to plan a motion by
+    torque: Array  # (m,) largest torque of the stated model along it, N m
+    tried: int  # motions that were looked at; `refused`: of them beyond torque limits or in collision
     refused: int
 
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What motion is wanted.
+    """What motion is wanted."""
 
-    Attributes:
-        period: s.
-        pairs: causes to tell apart.
-        rate: samples per second of the table, all of which keep clear.
-    """
-
-    period: float = MOTION.period_s
+    period: float = MOTION.period_s  # s
     harmonics: int = MOTION.harmonics
     rounds: int = MOTION.rounds
     seed: int = 0
-    pairs: tuple[Pair, ...] = ()
-    rate: float = MOTION.rate_hz
+    pairs: tuple[Pair, ...] = ()  # causes to tell apart
+    rate: float = MOTION.rate_hz  # samples per second of the table, all of which keep clear
 
 
 def times_of_table(period: float, rate: float) -> Array:

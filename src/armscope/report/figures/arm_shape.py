@@ -24,23 +24,16 @@ APART = 0.12
 
 @dataclass(frozen=True, eq=False)
 class ArmShape:
-    """An arm in one pose; base axes turned so that z points against gravity, m.
+    """An arm in one pose; base axes turned so that z points against gravity, m."""
 
-    Attributes:
-        parts: (location, (K, 3) points of its centre line) from the base to the tool: "base", "link 1", ..., "tool".
-        centres: (n, 3) where each joint's disc is drawn: on its axis, moved along it where two would coincide.
-        axes: (n, 3) directions of the joints' axes.
-        tool: (3,) tool point.
-        rod: crank and rod of a parallelogram, (4, 3): shoulder, crank pin, rocker pin, elbow; None for other arms.
-        to_world: (3, 3) turns base axes into the drawing's.
-    """
-
+    # (location, (K, 3) points of its centre line) from the base to the tool: "base", "link 1", ..., "tool"
     parts: tuple[tuple[str, Array], ...]
-    centres: Array
-    axes: Array
-    tool: Array
+    centres: Array  # (n, 3) where each joint's disc is drawn: on its axis, moved along it where two would coincide
+    axes: Array  # (n, 3) directions of the joints' axes
+    tool: Array  # (3,) tool point
+    # crank and rod of a parallelogram, (4, 3): shoulder, crank pin, rocker pin, elbow; None for other arms
     rod: Array | None
-    to_world: Array
+    to_world: Array  # (3, 3) turns base axes into the drawing's
 
     @property
     def points(self) -> Array:

@@ -21,21 +21,17 @@ WIDTH, HEIGHT = 440.0, 220.0
 
 @dataclass(frozen=True, eq=False)
 class DrawnCurve:
-    """One curve to draw.
+    """One curve to draw."""
 
-    Attributes:
-        title: where it is and what it follows.
-        x, value, low, high: (K,) the driver, the curve and its 95 % band, in the units that the labels name.
-        rows: (N,) the driver at the recorded rows, drawn as ticks at the bottom; None leaves them out.
-    """
-
-    title: str
+    title: str  # where it is and what it follows
+    # x, value, low, high: (K,) the driver, the curve and its 95 % band, in the units that the labels name
     x: Array
     value: Array
     low: Array
     high: Array
     x_label: str
     y_label: str
+    # (N,) the driver at the recorded rows, drawn as ticks at the bottom; None leaves them out
     rows: Array | None = None
 
 

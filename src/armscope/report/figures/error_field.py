@@ -33,33 +33,21 @@ NAMED_SHARE = 0.005
 
 @dataclass(frozen=True, eq=False)
 class ErrorField:
-    """N points of an arm and the errors there.
+    """N points of an arm and the errors there."""
 
-    Attributes:
-        points_mm: (N, 3) tool points, base axes.
-        motor_angles: (N, m) rad: the pose that the arm takes when a point is chosen.
-        ids: (N) what the rows are called.
-        groups: (N) the trajectory or run of each row.
-        stages: (name, what the error is) in the order in which they are offered: ("before", "measured minus nominal").
-        errors_mm: by model, for each stage (N, 3) base axes; NaN where there is no number.
-        missing: why a row may have no number.
-        paths: groups whose rows follow each other as a path.
-        suspects: why a row is no good, by row number from 0.
-        shares: of the mismatch by location; colours of the arm.
-    """
-
-    points_mm: Array
-    motor_angles: Array
-    ids: Sequence[str]
-    groups: Sequence[str]
+    points_mm: Array  # (N, 3) tool points, base axes
+    motor_angles: Array  # (N, m) rad: the pose that the arm takes when a point is chosen
+    ids: Sequence[str]  # (N) what the rows are called
+    groups: Sequence[str]  # (N) the trajectory or run of each row
     group_word: str
     row_word: str
+    # (name, what the error is) in the order in which they are offered: ("before", "measured minus nominal")
     stages: Sequence[tuple[str, str]]
-    errors_mm: Mapping[str, Sequence[Array]]
-    missing: str = "not known"
-    paths: Sequence[str] = ()
-    suspects: Mapping[int, str] = field(default_factory=dict)
-    shares: Mapping[str, float] = field(default_factory=dict)
+    errors_mm: Mapping[str, Sequence[Array]]  # by model, for each stage (N, 3) base axes; NaN where there is no number
+    missing: str = "not known"  # why a row may have no number
+    paths: Sequence[str] = ()  # groups whose rows follow each other as a path
+    suspects: Mapping[int, str] = field(default_factory=dict)  # why a row is no good, by row number from 0
+    shares: Mapping[str, float] = field(default_factory=dict)  # of the mismatch by location; colours of the arm
 
 
 def turnable(arm: Arm, shown: ErrorField) -> Markup:

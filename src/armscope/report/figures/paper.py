@@ -162,21 +162,13 @@ MOST_COLUMNS = 2
 
 @dataclass(frozen=True, eq=False)
 class PaperResults:
-    """What figures are drawn from.
+    """What figures are drawn from."""
 
-    Attributes:
-        measurements: of the study; its first robot is drawn.
-        fits: of that robot, one per model.
-        bands: ranges of the drawn robots (see `armscope.paper.bands`); empty for real arms.
-        arm: the nominal arm, for Figs. 1 and 2.
-        tracker_mm: (3,) where it is measured from, for Fig. 2.
-    """
-
-    measurements: Measurements
-    fits: Sequence[SwarmFit]
-    bands: pd.DataFrame
-    arm: Arm | None = None
-    tracker_mm: Array | None = None
+    measurements: Measurements  # of the study; its first robot is drawn
+    fits: Sequence[SwarmFit]  # of that robot, one per model
+    bands: pd.DataFrame  # ranges of the drawn robots (see `armscope.paper.bands`); empty for real arms
+    arm: Arm | None = None  # the nominal arm, for Figs. 1 and 2
+    tracker_mm: Array | None = None  # (3,) where it is measured from, for Fig. 2
 
     @property
     def by_model(self) -> dict[str, SwarmFit]:

@@ -36,23 +36,15 @@ def write_table2(path: Path, table: pd.DataFrame, audit: pd.DataFrame) -> None:
 
 @dataclass(frozen=True, eq=False)
 class PaperPage:
-    """What the page is made of.
+    """What the page is made of."""
 
-    Attributes:
-        paper: the configuration of the study.
-        results: the folder with its tables and figures (SVG).
-        proof: the folder of the small proof of the diagnosis.
-        field: see `armscope.report.pages.paper_field.error_field`.
-        outlook: corrected commands, sub-volumes, products.
-    """
-
-    paper: Paper
+    paper: Paper  # the configuration of the study
     seed: int
-    results: Path
-    proof: Path
+    results: Path  # the folder with its tables and figures (SVG)
+    proof: Path  # the folder of the small proof of the diagnosis
     real: list[ReproducedArm]
-    field: Markup
-    outlook: Outlook
+    field: Markup  # see `armscope.report.pages.paper_field.error_field`
+    outlook: Outlook  # corrected commands, sub-volumes, products
 
     def write(self, path: Path) -> None:
         """Render the page to ``path``."""

@@ -44,17 +44,11 @@ def is_thorough(audit: pd.DataFrame) -> bool:
 
 @dataclass(frozen=True)
 class Contradictions:
-    """What of the printed Table 2 can't be true under one reading.
+    """What of the printed Table 2 can't be true under one reading."""
 
-    Attributes:
-        cells: (model, trajectory, axis) that no path allows, taken by themselves.
-        trajectories: on which no path allows all cells together.
-        thorough: whether that can be said: else they are what the few paths that were tried don't allow.
-    """
-
-    cells: frozenset[tuple[str, str, str]]
-    trajectories: frozenset[str]
-    thorough: bool
+    cells: frozenset[tuple[str, str, str]]  # (model, trajectory, axis) that no path allows, taken by themselves
+    trajectories: frozenset[str]  # on which no path allows all cells together
+    thorough: bool  # whether that can be said: else they are what the few paths that were tried don't allow
 
 
 def contradictions(audit: pd.DataFrame) -> Contradictions:

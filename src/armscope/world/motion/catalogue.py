@@ -91,40 +91,26 @@ Size = Literal["small", "full"]
 
 
 class MotionSpec(Strict):
-    """All that a moving world is made from.
+    """All that a moving world is made from."""
 
-    Attributes:
-        id: its folder's name; it says nothing about what is inside.
-        category: what it is there to show.
-        arm: file in config/motion without its ending.
-        seed: of everything random in it.
-        fresh: whether the seed comes from the proof's seed.
-        rate: Hz of the recorded rows.
-        noise: standard deviation of the torque's noise as a share of each joint's RMS torque.
-        stated: whether robot.yaml states friction and rotor inertia.
-        current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
-        linked: whether every link has an encoder of its own beside its motor's.
-        rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
-        rough: what the arm has everywhere, names of `armscope.world.motion.rough.BLEMISHES`; what it conceals besides
-            is so many times as large as noise and that together.
-        durations: s, of the training runs and, last, of the test path.
-    """
-
-    id: str
-    category: Category
-    arm: str
-    seed: int
-    fresh: bool
-    rate: int
-    noise: float
+    id: str  # its folder's name; it says nothing about what is inside
+    category: Category  # what it is there to show
+    arm: str  # file in config/motion without its ending
+    seed: int  # of everything random in it
+    fresh: bool  # whether the seed comes from the proof's seed
+    rate: int  # Hz of the recorded rows
+    noise: float  # standard deviation of the torque's noise as a share of each joint's RMS torque
     effects: tuple[EffectSpec, ...] = ()
-    stated: bool = False
-    current: bool = False
-    linked: bool = False
+    stated: bool = False  # whether robot.yaml states friction and rotor inertia
+    current: bool = False  # whether motor currents are recorded instead of torques, with exact gains in robot.yaml
+    linked: bool = False  # whether every link has an encoder of its own beside its motor's
+    # rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all
     rule: PathRule = "free"
     joint: int | None = None
+    # what the arm has everywhere, names of `armscope.world.motion.rough.BLEMISHES`; what it conceals besides is so many
+    # times as large as noise and that together
     rough: tuple[str, ...] = ()
-    durations: tuple[float, ...] = (14.0, 14.0, 10.0)
+    durations: tuple[float, ...] = (14.0, 14.0, 10.0)  # s, of the training runs and, last, of the test path
 
 
 def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:

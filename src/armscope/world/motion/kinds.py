@@ -38,35 +38,25 @@ Records = Callable[[Session, Array, int, Numbers], Array]
 
 @dataclass(frozen=True)
 class Kind:
-    """A cause that can be concealed.
+    """A cause that can be concealed."""
 
-    Attributes:
-        effect: its name in the vocabulary, `UNKNOWN` for what no library has.
-        places: where it can stand on an arm.
-        draw: its numbers at unit size; those in `scaled` grow in proportion.
-        scaled: names of the numbers that the size multiplies.
-        largest: how far the scaled numbers may go before the thing would be absurd, by name.
-        changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too.
-        needs: columns of motions.csv without which nobody could see it.
-        stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
-        shape: which of several kinds of one effect, and of those outside the library.
-        possible: (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given.
-    """
-
-    effect: str
-    places: Callable[[RobotDescription], list[str]]
+    effect: str  # its name in the vocabulary, `UNKNOWN` for what no library has
+    places: Callable[[RobotDescription], list[str]]  # where it can stand on an arm
+    # its numbers at unit size; those in `scaled` grow in proportion
     draw: Callable[[np.random.Generator, RobotDescription], dict[str, float]]
     units: Mapping[str, str]
-    scaled: tuple[str, ...]
-    largest: Mapping[str, float]
+    scaled: tuple[str, ...]  # names of the numbers that the size multiplies
+    largest: Mapping[str, float]  # how far the scaled numbers may go before the thing would be absurd, by name
+    # changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too
     changes: Changes | None = None
     pulls: Pulls | None = None
     records: Records | None = None
     lies: Pulls | None = None
     driver: str = "speed"
-    needs: tuple[str, ...] = ()
-    stated: bool = False
-    shape: str = ""
+    needs: tuple[str, ...] = ()  # columns of motions.csv without which nobody could see it
+    stated: bool = False  # whether robot.yaml states what it departs from (ordinary friction is in every arm)
+    shape: str = ""  # which of several kinds of one effect, and of those outside the library
+    # (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given
     possible: Callable[[PlainArm, int, Numbers], bool] | None = None
 
     @property

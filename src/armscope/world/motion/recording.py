@@ -26,21 +26,13 @@ SPEED_FILTER_S = 0.004
 
 @dataclass(frozen=True, eq=False)
 class Recorded:
-    """The recorded rows of a session.
+    """The recorded rows of a session."""
 
-    Attributes:
-        rows: (N,) which samples of the fine grid.
-        torque: (N, n) read, N m.
-        noise: (N, n) noise and steps in it, N m.
-        left: (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off.
-        links: (N, n) rad, of the links' own encoders; None where they have none.
-    """
-
-    rows: Indices
-    torque: Array
-    noise: Array
-    left: Array
-    links: Array | None = None
+    rows: Indices  # (N,) which samples of the fine grid
+    torque: Array  # (N, n) read, N m
+    noise: Array  # (N, n) noise and steps in it, N m
+    left: Array  # (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off
+    links: Array | None = None  # (N, n) rad, of the links' own encoders; None where they have none
 
 
 def record(

@@ -29,23 +29,16 @@ PathRule = Literal["free", "one_way", "narrow"]
 
 @dataclass(frozen=True, eq=False)
 class Session:
-    """A motion at T samples of n joints.
+    """A motion at T samples of n joints."""
 
-    Attributes:
-        time: (T,) s, from the start of each run.
-        run: (T,) name of the run.
-        angle, speed, acceleration: (T, n) rad, rad/s, rad/s^2.
-        temperature: (T,) C.
-        test: (T,) belongs to the test path.
-    """
-
-    time: Array
-    run: NDArray[np.str_]
+    time: Array  # (T,) s, from the start of each run
+    run: NDArray[np.str_]  # (T,) name of the run
+    # angle, speed, acceleration: (T, n) rad, rad/s, rad/s^2
     angle: Array
     speed: Array
     acceleration: Array
-    temperature: Array
-    test: NDArray[np.bool_]
+    temperature: Array  # (T,) C
+    test: NDArray[np.bool_]  # (T,) belongs to the test path
 
     def __len__(self) -> int:
         return len(self.time)

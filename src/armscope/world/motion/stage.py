@@ -20,18 +20,13 @@ STANDSTILL = 2e-3
 
 @dataclass(frozen=True, eq=False)
 class PlainArm:
-    """An arm with its ordinary friction, before anything is concealed.
+    """An arm with its ordinary friction, before anything is concealed."""
 
-    Attributes:
-        description: what robot.yaml says (all of it).
-        sigma: (n,) noise of the recorded torques, N m.
-        stated: whether robot.yaml states friction and rotor inertia; else they are found, and absorb what is like them.
-    """
-
-    description: RobotDescription
+    description: RobotDescription  # what robot.yaml says (all of it)
     dynamics: Dynamics
     session: Session
-    sigma: Array
+    sigma: Array  # (n,) noise of the recorded torques, N m
+    # whether robot.yaml states friction and rotor inertia; else they are found, and absorb what is like them
     stated: bool
 
 
