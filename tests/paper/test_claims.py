@@ -11,9 +11,10 @@ from scipy.stats import beta
 from armscope.errormodels.features import FDP_AI, FDP_CI
 from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, judges, summarise
+from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import GROUPS
 from armscope.paper.claims.judges import arrival, cost_ratio
-from armscope.paper.claims.table import CLAIMS, DEPENDS, FAILS, HOLDS, OPEN, interval, under_assumptions, verdict
+from armscope.paper.claims.table import DEPENDS, FAILS, HOLDS, OPEN, interval, under_assumptions, verdict
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
 from armscope.paper.outlook import outlook
 from armscope.paper.sub_volumes import sub_volumes

@@ -125,10 +125,7 @@ def _quartic(left: Array) -> Array:
 
 def placed(set_up: SetUp, most_steps: int = FITTING.steps) -> State:
     """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration.
-
-    Args:
-        most_steps: of refinement; a few are enough to see whether an arm explains its points at all.
-    """
+    ``most_steps``: of refinement; a few are enough to see whether an arm explains its points at all."""
     frames, n_bases, n_tools = set_up.nominal_frames, len(set_up.base_names), len(set_up.tool_names)
     flange = frames.tool - frames.tool_rotation @ set_up.arm.tool
     poses = FlangePoses(flange, frames.tool_rotation, set_up.measured, set_up.base, set_up.tool)

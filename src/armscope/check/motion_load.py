@@ -22,11 +22,7 @@ from armscope.robot.dynamics import MovingArm
 
 def factors_of(samples: Samples, rigid: Array) -> dict[int, float]:
     """By how many times torques differ from those of masses, beyond friction, of joints where masses explain most.
-
-    Args:
-        samples: N of m joints.
-        rigid: (N, m) N m, of the masses.
-    """
+    ``samples``: N of m joints; ``rigid``: (N, m) N m, of the masses."""
     factors: dict[int, float] = {}
     for j, (left, asked) in enumerate(beyond_friction(samples, rigid)):
         power = float(asked @ asked)

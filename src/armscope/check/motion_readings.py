@@ -96,11 +96,8 @@ def explained(samples: Samples, arm: MovingArm) -> float:
 
 
 def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[OtherReading]:
-    """What the table means if it is not what its columns say: degrees, or another order of the joints.
-
-    Yields:
-        A problem, where the masses explain the torque only if the table is read otherwise.
-    """
+    """What the table means if it is not what its columns say: degrees, or another order of the joints. Yields a
+    problem, where the masses explain the torque only if the table is read otherwise."""
     if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
         return
     few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))

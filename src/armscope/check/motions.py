@@ -97,12 +97,8 @@ class MotionCheck(InWords):
 
 
 def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
-    """Look through a table of motions.
-
-    Raises:
-        InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide,
-            or currents have no gain.
-    """
+    """Look through a table of motions. Raises InputError: time goes back or is in milliseconds, nothing moves, no
+    channel records torque, other joints slide, or currents have no gain."""
     if arm is not None:
         refuse_other_joints(arm, motions)
         refuse_unknown_gains(arm, motions)

@@ -54,10 +54,7 @@ def better_arm(arm: Arm, recordings: Recordings, rms_m: float) -> list[Suspicion
 
 def nominal_fits(recordings: Recordings) -> tuple[NominalFit, ...]:
     """The library's arms with the table's number of motors, the best first; joint zeros and signs as in the library.
-
-    Args:
-        recordings: the table; of a long one rows are taken evenly.
-    """
+    ``recordings``: the table; of a long one rows are taken evenly."""
     usable = np.flatnonzero(np.isfinite(recordings.positions).all(axis=1))
     some = recordings.rows(usable[spread_evenly(len(usable), TRIALS.rows)] if len(usable) > TRIALS.rows else usable)
     points = some.positions - np.array([some.positions[some.run == run].mean(axis=0) for run in some.run])

@@ -106,11 +106,7 @@ def _targets_read(rows: SetUp, state: State, far: Indices, near: float) -> Array
 
 
 def on_the_tool(rows: SetUp, state: State) -> Array:
-    """Where each measured point is in the tool's frame, by base and tools as they are placed.
-
-    Returns:
-        (N, 3) m.
-    """
+    """Where each measured point is in the tool's frame, by base and tools as they are placed. Returns (N, 3) m."""
     turned = np.einsum("nji,nj->ni", state.rotations[rows.base], rows.residuals(state))
     return np.asarray(np.einsum("nji,nj->ni", rows.nominal_frames.tool_rotation, turned) + state.tools[rows.tool])
 

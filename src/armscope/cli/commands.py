@@ -138,10 +138,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
 def _refuse_endless(values: dict[str, Any]) -> None:
     """Numbers of options are finite: click lets "nan" pass where there is no bound, and "inf" below a lower one.
-
-    Raises:
-        InputError: one is not.
-    """
+    Raises InputError: one is not."""
     for name, value in values.items():
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"--{name.replace('_', '-')}", "", value, "a finite number is needed here")
@@ -169,11 +166,8 @@ def _help(hint: Any) -> str:
 
 
 def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
-    """What is to be read must be there: said before a command imports what it works with.
-
-    Raises:
-        InputError: there is one.
-    """
+    """What is to be read must be there: said before a command imports what it works with. Raises InputError: there
+    is one."""
     for path in paths:
         alike = _named_like(path, arms)
         cure = f"Did you mean {alike!r}?" if alike else "No such file or directory."
@@ -186,11 +180,8 @@ def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
 
 
 def _refuse_file(paths: list[Path], needed: str) -> None:
-    """What several files go into is no file, and --force makes it none; nor is it standard output.
-
-    Raises:
-        InputError: a folder is needed, and a file or a stream is there.
-    """
+    """What several files go into is no file, and --force makes it none; nor is it standard output. Raises
+    InputError: a folder is needed, and a file or a stream is there."""
     for path in paths if needed.startswith("folder") else ():
         if is_stream(path):
             rule = f"needed here: {needed}"
@@ -221,11 +212,8 @@ def _arms_of_library() -> list[str]:
 
 
 def _refuse_workbooks(paths: list[Path]) -> None:
-    """A name that says workbook, with CSV inside, is a file that spreadsheets call damaged.
-
-    Raises:
-        InputError: a file has such a name.
-    """
+    """A name that says workbook, with CSV inside, is a file that spreadsheets call damaged. Raises InputError: a
+    file has such a name."""
     for path in paths:
         if path.suffix.lower() in WORKBOOKS:
             cure = f"Call it {path.stem}.csv: spreadsheets open it."

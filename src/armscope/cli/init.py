@@ -52,11 +52,8 @@ def init(
 
 
 def _refuse_unusable(text: str, output: Path) -> None:
-    """A robot.yaml that no command could read is not written: it is read as they do.
-
-    Raises:
-        InputError: what they would say.
-    """
+    """A robot.yaml that no command could read is not written: it is read as they do. Raises InputError: what they
+    would say."""
     from armscope.core.plainyaml import plain_yaml
     from armscope.robot.arm import build_arm
     from armscope.robot.description_file import described

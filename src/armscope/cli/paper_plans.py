@@ -80,14 +80,8 @@ def scenarios_of(settings: ReachSettings, arm: Arm) -> list[Scenario]:
 
 
 def follow_all(robot: Path | str, settings: Path | str) -> pd.DataFrame:
-    """Follow the test paths of a study and of all its scenarios.
-
-    Returns:
-        See `armscope.paper.scenarios.check_reach`.
-
-    Raises:
-        InputError: a point that can't be reached; it names scenario, arm, path, point and reason.
-    """
+    """`armscope.paper.scenarios.check_reach` of a study and of all its scenarios. Raises InputError: a point that can't
+    be reached; it names scenario, arm, path, point and reason."""
     chosen, arm = parsed(ReachSettings, str(settings)), load_arm(robot)
     varied = [(f"{each.factor}: {each.level}", each.plan) for each in scenarios_of(chosen, arm)]
     return check_reach([("configured study", plan_of(chosen, arm)), *varied])

@@ -49,11 +49,8 @@ def parsed(model: type[Model], settings: str) -> Model:
 
 
 def every_nth(part: str) -> slice:
-    """Which of many things a part like "0/4" takes: the first of four and every fourth after it.
-
-    Raises:
-        InputError: no part.
-    """
+    """Which of many things a part like "0/4" takes: the first of four and every fourth after it. Raises InputError:
+    no part."""
     number, _, parts = part.partition("/")
     if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
         raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
@@ -66,11 +63,8 @@ def worlds_in(folder: Path) -> list[Path]:
 
 
 def read_seed(path: Path) -> dict[str, Any]:
-    """The seed of a proof: proof_seed, and whether it was drawn.
-
-    Raises:
-        InputError: `armscope proof seed` has not written it.
-    """
+    """The seed of a proof: proof_seed, and whether it was drawn. Raises InputError: `armscope proof seed` has not
+    written it."""
     from armscope.core.files import read_json
 
     content = read_json(path, "the file of `armscope proof seed`")

@@ -62,10 +62,7 @@ class BadShot:
 
 def weigh_rows(model: Weighed) -> None:
     """Rows count by how far each lies from what the others of its recording say, so that no change counts.
-
-    Args:
-        model: what recordings share; one with a recording too short to be fitted alone stays as it is.
-    """
+    ``model``: what recordings share; one with a recording too short to be fitted alone stays as it is."""
     sets = range(model.group[-1] + 1)
     model.trust(np.ones(len(model.group)))
     alone = [model.alone(number) for number in sets]

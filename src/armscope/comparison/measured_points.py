@@ -97,12 +97,7 @@ def measured_points(model: SharedModel, taken: Sequence[Possible], names: Sequen
 
 
 def _apart(step: Array, covariance: Array, half: float) -> tuple[float, tuple[float, float]]:
-    """How far, and the 95 % interval of that.
-
-    Args:
-        step: (3,) mm.
-        covariance: (3, 3) of it.
-    """
+    """How far, and the 95 % interval of that. ``step``: (3,) mm; ``covariance``: (3, 3) of it."""
     distance = float(np.linalg.norm(step))
     along = step / max(distance, 1e-300)
     error = half * float(np.sqrt(along @ covariance @ along))

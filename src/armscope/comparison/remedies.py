@@ -36,11 +36,8 @@ class Remedy:
 
 
 def remedy_of(found: Comparison, change: Change) -> Remedy:
-    """What to do about one change; its numbers are those of the change, not of all that is off.
-
-    Returns:
-        The words; empty ones of an effect that is not installed any more.
-    """
+    """What to do about one change; its numbers are those of the change, not of all that is off. Returns the words;
+    empty ones of an effect that is not installed any more."""
     known = ANOTHER_LOAD if change.effect == ANOTHER_LOAD.name else effect_named(change.effect)
     if known is None:
         return Remedy("", _why(found, change), "", "", "")

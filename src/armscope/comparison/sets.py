@@ -67,11 +67,8 @@ def _check_rows(table: Recordings) -> None:
 
 
 def _refuse_copies(names: Sequence[str], tables: Sequence[Recordings]) -> None:
-    """A recording of the rows of another one tells nothing of a change, and makes the noise look small.
-
-    Raises:
-        InputError: all points of one stand in another one, to the last digit.
-    """
+    """A recording of the rows of another one tells nothing of a change, and makes the noise look small. Raises
+    InputError: all points of one stand in another one, to the last digit."""
     points = [{tuple(point) for point in table.positions.tolist()} for table in tables]
     for (first, ours), (second, theirs) in combinations(zip(names, points, strict=True), 2):
         if ours <= theirs or theirs <= ours:

@@ -63,12 +63,8 @@ class ErrorModel:
         return float(np.linalg.norm(self.rms_mm))
 
     def error_and_slope(self, angles: Array, nominal: Array) -> tuple[Array, Array]:
-        """Errors (N, 3), m, and their derivatives (N, 3, 3) by the nominal position (m/m) or (N, 3, m) by the angles.
-
-        Args:
-            angles: (N, m) rad.
-            nominal: (N, 3) nominal tool points in the base frame, m.
-        """
+        """Errors (N, 3), m, and their derivatives (N, 3, 3) by the nominal position (m/m) or (N, 3, m) by the
+        angles. ``angles``: (N, m) rad; ``nominal``: (N, 3) nominal tool points in the base frame, m."""
         # the blend's own slope is left out: models of neighbouring regions nearly agree where they are blended
         inputs = self.inputs(angles, nominal)
         error, slope = _blend(self.features, weights(self.cut, inputs), self.coefficients, inputs)

@@ -254,11 +254,8 @@ def _payload(rows: Recordings) -> Array:
 
 
 def with_measured_tool(model: FittedModel, rows: Recordings) -> Arm:
-    """The nominal arm with the measured tool point: where on the tool one measured is no error of the arm.
-
-    Raises:
-        InputError: the rows are of several points.
-    """
+    """The nominal arm with the measured tool point: where on the tool one measured is no error of the arm. Raises
+    InputError: the rows are of several points."""
     shift = np.zeros((len(rows), 3))
     for part in model.tools:
         if part.placed.name == TOOL_FRAME.name:

@@ -143,10 +143,7 @@ def _are_numbers(rows: Recordings) -> bool:
 
 def _refuse_missing_context(fitted: FittedModel, rows: Recordings, identified: Identified | None) -> list[str]:
     """What an effect follows must be known in every row: nothing is taken for zero; notes where that is not known.
-
-    Raises:
-        InputError: it is not.
-    """
+    Raises InputError: it is not."""
     from armscope.compensation.physical import FILE, drivers_of, missing_context
     from armscope.physics.drivers import KINDS
 

@@ -60,11 +60,8 @@ def write_rapid(path: Path | str, angles: Array, name: str = "armscope_path", sp
 
 
 def read_rapid(path: Path | str, n_motors: int) -> Array:
-    """The commands (N, m) rad of a RAPID module's joint targets, in the order in which it moves to them.
-
-    Raises:
-        InputError: no such module, a target that is not defined, or another number of motors.
-    """
+    """The commands (N, m) rad of a RAPID module's joint targets, in the order in which it moves to them. Raises
+    InputError: no such module, a target that is not defined, or another number of motors."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

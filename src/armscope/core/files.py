@@ -93,11 +93,8 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
 
 
 def read_json(path: Path | str, what: str) -> Any:
-    """The content of a JSON file, gzipped or not; ``what`` it is, for the error.
-
-    Raises:
-        InputError: no such file, no JSON.
-    """
+    """The content of a JSON file, gzipped or not; ``what`` it is, for the error. Raises InputError: no such file, no
+    JSON."""
     path = Path(path)
     note_read(path)
     try:
@@ -194,11 +191,8 @@ def _beside(path: Path) -> Iterator[Path]:
 
 
 def new_folder(folder: Path | str) -> None:
-    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it.
-
-    Raises:
-        InputError: there is something in it.
-    """
+    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it. Raises
+    InputError: there is something in it."""
     if outputs.current() is None and Path(folder).is_dir() and any(Path(folder).iterdir()):
         raise InputError(folder, "", "a folder with files in it", "a new or empty folder is needed")
 

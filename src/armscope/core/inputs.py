@@ -140,11 +140,8 @@ class Strict(pydantic.BaseModel):
 
 
 def read_yaml(path: Path | str) -> Any:
-    """The content of a YAML file: plain values, see `armscope.core.plainyaml`.
-
-    Raises:
-        InputError: it can't be read; line and column are named.
-    """
+    """The content of a YAML file: plain values, see `armscope.core.plainyaml`. Raises InputError: it can't be read;
+    line and column are named."""
     path = Path(path)
     note_read(path)
     try:

@@ -37,12 +37,7 @@ class Lock:
         self._handle: int | None = None
 
     def take(self) -> None:
-        """Take the lock.
-
-        Raises:
-            Busy: a living process holds it.
-            OSError: the file can't be made.
-        """
+        """Take the lock. Raises Busy: a living process holds it; OSError: the file can't be made."""
         tries = 0
         while self._handle is None:
             handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)

@@ -52,12 +52,8 @@ class _Open:
 
 
 def plain_yaml(text: str | bytes) -> Any:
-    """The one document in a YAML text; None where there is none.
-
-    Raises:
-        yaml.YAMLError: it is no YAML.
-        NotPlain: it is more than a configuration can be.
-    """
+    """The one document in a YAML text; None where there is none. Raises yaml.YAMLError: it is no YAML; NotPlain: it
+    is more than a configuration can be."""
     reading = _Reading()
     for event in _events(text):
         reading.take(event)

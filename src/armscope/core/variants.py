@@ -45,11 +45,8 @@ class Variant(Strict):
 
 
 def read_variants(path: Path | str) -> list[Variant]:
-    """The variants of a sweep's table (CSV).
-
-    Raises:
-        InputError: a column, value or id that can't be; it names row, column, rule.
-    """
+    """The variants of a sweep's table (CSV). Raises InputError: a column, value or id that can't be; it names row,
+    column, rule."""
     header, *rows = _lines(Path(path))
     for column in header:
         if column not in Variant.model_fields:

@@ -111,11 +111,8 @@ class FeatureSet:
         return 1 + sum(self.moving) * self.spec.order * (2 if self.spec.family == "fourier" else 1)
 
     def matrix(self, inputs: ArrayLike) -> Array:
-        """The terms' values, N x terms, at ``inputs`` (N x k).
-
-        Raises:
-            ValueError: not the number of inputs that the model was made for, or numbers that are not finite.
-        """
+        """The terms' values, N x terms, at ``inputs`` (N x k). Raises ValueError: not the number of inputs that the
+        model was made for, or numbers that are not finite."""
         table = checked_inputs(inputs)
         if table.shape[1] != len(self.inputs):
             raise ValueError(
@@ -127,11 +124,8 @@ class FeatureSet:
         return np.stack(columns, axis=1)
 
     def slopes(self, inputs: ArrayLike) -> Array:
-        """The terms' derivatives by the inputs, N x terms x k, per mm or rad, at ``inputs`` (N x k).
-
-        Raises:
-            ValueError: as `matrix`.
-        """
+        """The terms' derivatives by the inputs, N x terms x k, per mm or rad, at ``inputs`` (N x k). Raises
+        ValueError: as `matrix`."""
         table = checked_inputs(inputs)
         slopes = np.zeros((len(table), self.coefficients_per_axis, len(self.inputs)))
         term = 1
@@ -186,11 +180,8 @@ class FeatureSet:
 
 
 def input_names(space: str, count: int) -> tuple[str, ...]:
-    """The names of ``count`` inputs: px, py, pz, or theta1, theta2, ...
-
-    Raises:
-        ValueError: Cartesian input that is not three numbers per row.
-    """
+    """The names of ``count`` inputs: px, py, pz, or theta1, theta2, ... Raises ValueError: Cartesian input that is
+    not three numbers per row."""
     if space == "cartesian":
         if count != 3:
             raise ValueError(f"{count} Cartesian inputs per row: must be 3 (px, py, pz)")

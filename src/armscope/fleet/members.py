@@ -36,11 +36,8 @@ class Member:
 
 
 def read_fleet(path: Path) -> list[Member]:
-    """The rows of a fleet.csv; files are looked for from where the command is run.
-
-    Raises:
-        InputError: a column or a file is missing, or two rows would be one diagnosis.
-    """
+    """The rows of a fleet.csv; files are looked for from where the command is run. Raises InputError: a column or a
+    file is missing, or two rows would be one diagnosis."""
     table = read_text_table(path)
     for column in COLUMNS:
         if column not in table:

@@ -23,11 +23,8 @@ TOLERATED = 1.1
 
 
 def enough_poses(plan: StudyPlan, study: VirtualStudy) -> pd.DataFrame:
-    """The error left on the test trajectories against the number of poses, for every robot of a study.
-
-    Returns:
-        Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out).
-    """
+    """The error left on the test trajectories against the number of poses, for every robot of a study. Returns
+    Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out)."""
     paths = study.measurements.held_out
     followed = np.concatenate([each.motor_angles for each in paths])
     ranges = identification_ranges(plan.errors, followed, plan.poses)

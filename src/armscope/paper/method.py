@@ -18,9 +18,10 @@ from armscope.errormodels.basis import BasisKind
 from armscope.errormodels.features import ModelSpec
 from armscope.errormodels.fitted import Layout, SwarmFit
 from armscope.errormodels.swarm_fit import fit_random_search, fit_swarms
+from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.evidence import Evidence
 from armscope.paper.claims.judges import CLOSE_PER_CENT, arrival, cost_ratio
-from armscope.paper.claims.table import CLAIMS, interval, missing_models
+from armscope.paper.claims.table import interval, missing_models
 from armscope.paper.convergence import RANDOM_SEARCH
 from armscope.paper.measurements import Measurements
 from armscope.swarm.settings import SwarmSettings

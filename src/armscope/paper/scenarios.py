@@ -88,11 +88,8 @@ def _together(
 
 
 def check_reach(plans: Sequence[tuple[str, StudyPlan]]) -> pd.DataFrame:
-    """Follow the paths of all scenarios before anything else is done with them.
-
-    Raises:
-        InputError: names every scenario with a point that its arm can't reach, and why.
-    """
+    """Follow the paths of all scenarios before anything else is done with them. Raises InputError: names every
+    scenario with a point that its arm can't reach, and why."""
     rows, missed = [], []
     followed: dict[tuple[int, PlannedPaths], int | InputError] = {}  # most scenarios change neither arm nor paths
     for name, plan in plans:

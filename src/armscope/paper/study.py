@@ -59,20 +59,14 @@ class StudyPlan:
         )
 
     def follow(self) -> pd.DataFrame:
-        """Pose table of the test paths.
-
-        Raises:
-            InputError: a point that can't be reached; it names arm, path, point and reason.
-        """
+        """Pose table of the test paths. Raises InputError: a point that can't be reached; it names arm, path, point
+        and reason."""
         return trajectory_poses(self.arm, self.paths.by_name())
 
 
 def measured(plan: StudyPlan) -> tuple[VirtualStudy, ChosenPoses]:
-    """The robots of a plan, measured at its poses, and what the choice of the identification poses is worth.
-
-    Raises:
-        InputError: a path that can't be reached.
-    """
+    """The robots of a plan, measured at its poses, and what the choice of the identification poses is worth. Raises
+    InputError: a path that can't be reached."""
     errors, trajectories = plan.errors, plan.follow()
     identification, choice = identification_poses(errors, trajectories, plan.poses, plan.seed)
     at = pd.concat([identification, trajectories], ignore_index=True)

@@ -66,10 +66,7 @@ class PlannedPoses:
 
 def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
     """The pose table (see `pose_table`) of paths followed with theta4 = theta5 = 0 and least motion, from angles 0.
-
-    Raises:
-        InputError: a point that can't be reached; it names path, point and reason.
-    """
+    Raises InputError: a point that can't be reached; it names path, point and reason."""
     held = {motor: angle for motor, angle in HELD.items() if motor <= arm.n_motors}
     tables = []
     for name, path in paths_mm.items():

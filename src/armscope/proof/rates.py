@@ -234,11 +234,8 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
 
 
 def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
-    """All tables of a proof by name: the cases themselves and every rate.
-
-    Args:
-        cases: as `armscope.proof.scoring.score` returns them.
-    """
+    """All tables of a proof by name: the cases themselves and every rate. ``cases``: as
+    `armscope.proof.scoring.score` returns them."""
     rng = np.random.default_rng(seed)
     return cases.tables() | {
         "aims": aims_table(cases, rng),

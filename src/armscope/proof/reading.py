@@ -34,11 +34,8 @@ def read_worlds(folder: Path) -> Iterator[World]:
 
 
 def sealed_batches(folder: Path) -> Iterator[tuple[str, Path]]:
-    """Name and archive of every batch of worlds, once it is sure that its diagnosing job saw what it may and no more.
-
-    Raises:
-        InputError: one could see more.
-    """
+    """Name and archive of every batch of worlds, once it is sure that its diagnosing job saw what it may and no
+    more. Raises InputError: one could see more."""
     for archive in sorted((folder / "sealed").glob("*.tar.gz")):
         batch = archive.name.removesuffix(".tar.gz")
         check_seal(folder / "seen" / f"{batch}.txt")
@@ -46,11 +43,8 @@ def sealed_batches(folder: Path) -> Iterator[tuple[str, Path]]:
 
 
 def check_seal(seen: Path, allowed: Collection[str] = ALLOWED) -> None:
-    """Make sure that a diagnosing job saw nothing but what may be seen.
-
-    Raises:
-        InputError: the list holds another file.
-    """
+    """Make sure that a diagnosing job saw nothing but what may be seen. Raises InputError: the list holds another
+    file."""
     files = seen.read_text(encoding="utf-8").splitlines()
     if not files:
         raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, what was measured at least")

@@ -85,11 +85,8 @@ def plant(
 def _best_placed(
     simulated: SimulatedEffects, judge: Judge, effects: Sequence[Concealed], sizes: Sequence[float], level: float
 ) -> Concealed:
-    """The first that has the fewest alternatives at the largest size that any place allows.
-
-    Raises:
-        CannotPlantError: none has a place at any size.
-    """
+    """The first that has the fewest alternatives at the largest size that any place allows. Raises CannotPlantError:
+    none has a place at any size."""
     reasons: list[str] = []
     for size, largest_factor in itertools.product(sorted(sizes, reverse=True), (LARGEST_FACTOR, np.inf)):
         found: list[Planted] = []
@@ -135,11 +132,8 @@ def _sized(
     level: float,
     largest_factor: float = np.inf,
 ) -> Planted:
-    """The effect scaled to its size.
-
-    Raises:
-        CannotPlantError: frames or links take nearly all of it, or it would be absurd.
-    """
+    """The effect scaled to its size. Raises CannotPlantError: frames or links take nearly all of it, or it would be
+    absurd."""
     train, total = simulated.prepared.train, 1.0
     for _ in range(CONCEALING.rounds):
         moved = simulated.moved(effect)

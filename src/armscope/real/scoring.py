@@ -76,11 +76,8 @@ class Scores:
 
 
 def read_sealed(folder: Path) -> Iterator[Sealed]:
-    """Every world of the concealment with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of the concealment with its answer. Raises InputError: a diagnosing job could see more than it
+    may."""
     for batch, archive in sealed_batches(folder):
         name, _, part = batch.rpartition("-")
         for world, (truth, readings) in sorted(unsealed(archive).items()):

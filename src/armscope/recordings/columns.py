@@ -197,11 +197,8 @@ class Names:
             raise self._error(f"{one} and {other}", "one column per quantity", "Remove one of them.")
 
     def motor_angles(self, n_motors: int | None) -> list[str]:
-        """The columns of ``n_motors`` motors' angles, or of as many as there are.
-
-        Raises:
-            InputError: there are none, or others.
-        """
+        """The columns of ``n_motors`` motors' angles, or of as many as there are. Raises InputError: there are none,
+        or others."""
         matches = (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.columns)
         found = {int(m[1]): m[0] for m in matches if m}
         self._refuse_slides()
@@ -248,11 +245,8 @@ class Names:
         )
 
     def positions(self, measured: bool) -> list[str]:
-        """The columns of measured points; none where there are none and they need not be ``measured``.
-
-        Raises:
-            InputError: some are missing, or they stand there twice.
-        """
+        """The columns of measured points; none where there are none and they need not be ``measured``. Raises
+        InputError: some are missing, or they stand there twice."""
         for axis in "xyz":
             self.check_one_unit(f"{axis}_mm", f"{axis}_m")
         for unit in ("mm", "m"):
@@ -272,10 +266,7 @@ class Names:
 
     def _refuse_motion(self) -> None:
         """Where there are no points: a table of an arm in motion, or one of which nothing but angles was recorded.
-
-        Raises:
-            InputError: it is either.
-        """
+        Raises InputError: it is either."""
         points = "measured positions stand in x_mm, y_mm, z_mm (or _m)"
         if is_motion(list(self.columns)):
             cure = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."

@@ -28,11 +28,8 @@ UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def start_of(path: Path, what: str) -> bytes:
-    """The first bytes of a file, unpacked where it is gzipped; ``what`` it is, for the error.
-
-    Raises:
-        InputError: no readable file.
-    """
+    """The first bytes of a file, unpacked where it is gzipped; ``what`` it is, for the error. Raises InputError: no
+    readable file."""
     note_read(path)
     try:
         with at_hand(path).open("rb") as stream:

@@ -90,11 +90,8 @@ class Recordings(InWords):
         return int(self.motor_angles.shape[1])
 
     def check_motors(self, arm: str, count: int) -> None:
-        """Refuse the table of another arm than the one of this name and number of motors.
-
-        Raises:
-            InputError: it has another number of motor angles.
-        """
+        """Refuse the table of another arm than the one of this name and number of motors. Raises InputError: it has
+        another number of motor angles."""
         if self.n_motors != count:
             rule = f"{arm} has {count} motors"
             cure = "Is this the right robot for the table?"
@@ -111,11 +108,8 @@ class Recordings(InWords):
         return replace(self, **per_row, extra=extra)
 
     def of_runs(self, runs: Collection[str], first_id: int | None = None) -> Recordings:
-        """The rows of some runs (none named: of all), from an id on.
-
-        Raises:
-            InputError: a run that no row has, or nothing left.
-        """
+        """The rows of some runs (none named: of all), from an id on. Raises InputError: a run that no row has, or
+        nothing left."""
         known = set(self.run.tolist())
         for run in runs:
             if run not in known:

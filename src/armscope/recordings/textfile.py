@@ -34,14 +34,8 @@ NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None"
 
 
 def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda header: None) -> pd.DataFrame:
-    """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text.
-
-    Args:
-        check: refuses a header that can't be used, before the rest is read.
-
-    Raises:
-        InputError: it is no such table.
-    """
+    """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text. ``check``:
+    refuses a header that can't be used, before the rest is read. Raises InputError: it is no such table."""
     with pipes_kept():
         return _table(path, check)
 

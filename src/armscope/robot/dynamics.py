@@ -207,11 +207,8 @@ def leaning_gravity(down: Array) -> Array:
 
 
 def load_moving_arm(path: Path | str) -> MovingArm:
-    """The arm of a robot.yaml, for inverse dynamics.
-
-    Raises:
-        InputError: the file can't be read, says something impossible, or states no masses.
-    """
+    """The arm of a robot.yaml, for inverse dynamics. Raises InputError: the file can't be read, says something
+    impossible, or states no masses."""
     return build_moving_arm(load_description(path), path)
 
 
@@ -250,11 +247,8 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
 
 
 def attached_bodies(model: pin.Model) -> tuple[tuple[str, Array], ...]:
-    """Bodies that fixed or locked joints hold to a moving link, each with what it carries.
-
-    Returns:
-        Name and (10 n,) inertial parameters, SI, in the frames of the links, of each.
-    """
+    """Bodies that fixed or locked joints hold to a moving link, each with what it carries. Returns name and (10 n,)
+    inertial parameters, SI, in the frames of the links, of each."""
     found: dict[bytes, tuple[str, Array]] = {}
     for number, frame in enumerate(model.frames):
         if frame.type not in (pin.FrameType.FIXED_JOINT, pin.FrameType.JOINT) or frame.parentJoint == 0:

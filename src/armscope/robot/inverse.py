@@ -42,11 +42,8 @@ class PathSolution:
         return reached
 
     def require_all(self, source: object) -> Array:
-        """The motor angles, if every point is reached.
-
-        Raises:
-            InputError: names ``source``, the first row that can't be reached, and why.
-        """
+        """The motor angles, if every point is reached. Raises InputError: names ``source``, the first row that can't
+        be reached, and why."""
         missed = np.flatnonzero(~self.reached)
         if len(missed):
             row = int(missed[0])

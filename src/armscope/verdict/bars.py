@@ -15,11 +15,8 @@ PPM = 1e6
 
 
 def bars_set_right(parameters: Sequence[Parameter]) -> str:
-    """How each bar that is off is changed; one whose interval holds zero is left as it is.
-
-    Args:
-        parameters: of the parallelogram: the errors of its bars, lengths or shares of the rocker's.
-    """
+    """How each bar that is off is changed; one whose interval holds zero is left as it is. ``parameters``: of the
+    parallelogram: the errors of its bars, lengths or shares of the rocker's."""
     bars = sorted((p for p in parameters if p.name in BARS), key=lambda p: BARS.index(p.name))
     if not bars:
         return "–"

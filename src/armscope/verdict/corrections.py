@@ -93,11 +93,8 @@ def wrongly_stated(verdict: Diagnosis) -> bool:
 
 
 def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The D-H rows as stated and as found, mm and degrees, without the zeros.
-
-    Returns:
-        A line per row; None for an arm that has no D-H rows, or is wrongly stated.
-    """
+    """The D-H rows as stated and as found, mm and degrees, without the zeros. Returns a line per row; None for an
+    arm that has no D-H rows, or is wrongly stated."""
     dh = verdict.model.arm.description.dh
     if dh is None or wrongly_stated(verdict):
         return None
@@ -163,11 +160,8 @@ def _corrected(row: Mapping[Any, Any], name: str, verdict: Diagnosis) -> Correct
 
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The origins of the chain's joints in the URDF as stated and as found, without the zeros.
-
-    Returns:
-        A line per joint; None for D-H rows, or an arm that is wrongly stated.
-    """
+    """The origins of the chain's joints in the URDF as stated and as found, without the zeros. Returns a line per
+    joint; None for D-H rows, or an arm that is wrongly stated."""
     arm = verdict.model.arm
     if arm.description.dh is not None or wrongly_stated(verdict):
         return None

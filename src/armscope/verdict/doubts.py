@@ -40,11 +40,8 @@ class Doubt:
 
 
 def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
-    """The doubt about a cause; None where its name is sure.
-
-    Args:
-        asked: whether further measurements that the verdict asks for settle it.
-    """
+    """The doubt about a cause; None where its name is sure. ``asked``: whether further measurements that the verdict
+    asks for settle it."""
     if effect.named_as == "effect" or effect.same_cure:
         return None
     rivals = _rivals(effect)

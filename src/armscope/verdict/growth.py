@@ -14,11 +14,8 @@ WHOLE_ARM = "arm"
 
 
 def growth_in_words(background: Sequence[Part]) -> str:
-    """The formula by which all links of an arm are scaled: one number for all, weighed by their lengths.
-
-    Returns:
-        A sentence or two; "" where the links do not grow.
-    """
+    """The formula by which all links of an arm are scaled: one number for all, weighed by their lengths. Returns a
+    sentence or two; "" where the links do not grow."""
     grown = _by_link(background)
     if not grown:
         return ""

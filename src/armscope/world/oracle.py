@@ -33,11 +33,8 @@ class Oracle:
     variance: float  # of the noise, m^2
 
     def fitted(self, without: int | None = None) -> tuple[Array, Array, float]:
-        """The columns, their values, and the log evidence of the recorded rows, nats, but for what is the same for all.
-
-        Args:
-            without: an effect that is taken to be absent, by its number in ``known``.
-        """
+        """The columns, their values, and the log evidence of the recorded rows, nats, but for what is the same for
+        all. ``without``: an effect that is taken to be absent, by its number in ``known``."""
         matrix = np.concatenate([self.frames, *(d for k, d in enumerate(self.displaced) if k != without)], axis=1)
         seen = matrix[self.seen]
         # the frames' columns have a length of one, so a size of one of theirs, too, is as good as anywhere

@@ -78,10 +78,7 @@ def random_session(
 
 def _reachable_poses(description: RobotDescription, rng: np.random.Generator, count: int, rule: str = "free") -> Array:
     """(count, m) motor angles, rad, of a rule: tool above the floor and clear of the base, rounded to 1e-7 rad.
-
-    Raises:
-        RuntimeError: hardly any pose of the rule can be reached.
-    """
+    Raises RuntimeError: hardly any pose of the rule can be reached."""
     assert description.joint_limits_deg is not None, "worlds need joint limits"
     geometry = Geometry(description)
     mechanism = Mechanism(geometry, Layout(row_errors=np.zeros((geometry.n_joints, 4))))

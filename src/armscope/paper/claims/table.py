@@ -9,10 +9,9 @@ import numpy as np
 import pandas as pd
 
 from armscope.paper.anchoring import ANCHORED
+from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import BY_SWARM, Claim
 from armscope.paper.claims.evidence import AS_PRINTED, IMPROVED, LEAST_SQUARES, Evidence, Judged
-from armscope.paper.claims.others import OTHER_CLAIMS
-from armscope.paper.claims.own import OWN_CLAIMS
 
 HOLDS_FROM, FAILS_TO = 0.95, 0.05
 """A claim holds if it is true of at least this share of the robots, fails if of at most that one."""
@@ -64,9 +63,6 @@ def under_assumptions(base: str, varied: Iterable[tuple[str, str]]) -> tuple[str
         return (only if only == DEPENDS else f"{only} under all"), ()
     reference = base if base in DECISIVE else decisive[0][1]
     return "depends on the assumption", tuple(dict.fromkeys(f for f, each in decisive if each != reference))
-
-
-CLAIMS = (*OWN_CLAIMS, *OTHER_CLAIMS)
 
 
 SKIPPED = "skipped"

@@ -108,12 +108,8 @@ def _bettered(
     progress: Callable[[int, int], None] | None,
     most: float,
 ) -> tuple[FourierPath, MotionScore, MotionScore]:
-    """The best of some motions, bettered; the score of the median one, and its own.
-
-    Args:
-        progress: as in `excite`.
-        most: times as large as they are that changed waves are made where the limits leave room.
-    """
+    """The best of some motions, bettered; the score of the median one, and its own. ``progress``: as in `excite`;
+    ``most``: times as large as they are that changed waves are made where the limits leave room."""
     scores = [search.score(path) for path in found]
     order = np.argsort([each.value for each in scores])
     before = scores[int(order[(len(order) - 1) // 2])]
@@ -195,10 +191,7 @@ class _Search:
 
     def about_clear_poses(self, rng: np.random.Generator) -> list[FourierPath]:
         """Small motions about poses that are clear, for arms that meet themselves, or the floor, on larger ones.
-
-        Raises:
-            InputError: none is possible either.
-        """
+        Raises InputError: none is possible either."""
         low, high = self.limits.path.angle.T
         poses = rng.uniform(low, high, (MOTION.clear_poses, len(low)))
         reasons = refusals(self.arm, poses, self.around)

@@ -22,11 +22,8 @@ LAST_WORDS = 2000
 
 
 def diagnose_worlds(worlds: Iterable[Path], output: Path) -> None:
-    """`armscope diagnose` and, for the path without torques, `armscope predict` on every world.
-
-    Args:
-        output: new folder; each world's verdict goes into a folder of the world's name.
-    """
+    """`armscope diagnose` and, for the path without torques, `armscope predict` on every world. ``output``: new
+    folder; each world's verdict goes into a folder of the world's name."""
     new_folder(output)
     for world in worlds:
         started = time.perf_counter()

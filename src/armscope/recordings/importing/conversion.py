@@ -234,11 +234,8 @@ class Converter:
 
 
 def _by_reflector(piece: Piece, reflectors: Reflectors, table: pd.DataFrame) -> pd.DataFrame:
-    """A row for each reflector that was seen, those of one raw row together; ``table`` is what else is known of rows.
-
-    Raises:
-        InputError: a point is there in part, or too far to be one, or a row shows no reflector.
-    """
+    """A row for each reflector that was seen, those of one raw row together; ``table`` is what else is known of
+    rows. Raises InputError: a point is there in part, or too far to be one, or a row shows no reflector."""
     seen = []
     for name, columns in reflectors.targets.items():
         points = whole(piece, columns, "a point") * UNITS[reflectors.unit]

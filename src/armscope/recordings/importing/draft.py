@@ -86,11 +86,8 @@ SCALARS = {
 
 
 def draft_mapping(path: Path | str) -> str:
-    """The text of a mapping.yaml that reads this file, with a comment on every guess.
-
-    Raises:
-        InputError: it is no text table, or no columns look like motor angles and points (or a motion's torques).
-    """
+    """The text of a mapping.yaml that reads this file, with a comment on every guess. Raises InputError: it is no
+    text table, or no columns look like motor angles and points (or a motion's torques)."""
     path = Path(path)
     table = first_table(path)
     columns = list(_guess_columns(path, table))

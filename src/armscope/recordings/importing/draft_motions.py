@@ -40,10 +40,7 @@ MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
 
 def draft_any_mapping(path: Path | str) -> str:
     """The text of a mapping.yaml that reads this file, of points or of a motion, with a comment on every guess.
-
-    Raises:
-        InputError: it is no text table, or its columns look like neither.
-    """
+    Raises InputError: it is no text table, or its columns look like neither."""
     path = Path(path)
     table = first_table(path)
     columns = list(_of_a_motion(table))

@@ -31,11 +31,8 @@ COMPUTED = "the controller computed it"
 
 
 def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[str]:
-    """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it.
-
-    Args:
-        taken: columns that are something else: motor angles and the point.
-    """
+    """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it. ``taken``:
+    columns that are something else: motor angles and the point."""
     free = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     named = _quaternion(table, free)
     if columns := named or _numbered_quaternion(table, free):

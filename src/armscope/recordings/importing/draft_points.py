@@ -14,11 +14,8 @@ AXIS = re.compile(r"(?<![a-z])(?:pos|coord|p)?([xyz])(?![a-z])")
 
 
 def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
-    """The three columns of each measured point, those of one name with numbers 1, 2, ... in their order.
-
-    Returns:
-        Columns along x, y, z by reflector; nothing where no columns look like a point.
-    """
+    """The three columns of each measured point, those of one name with numbers 1, 2, ... in their order. Returns
+    Columns along x, y, z by reflector; nothing where no columns look like a point."""
     if not table.header:
         return [list(range(len(taken), len(taken) + 3))] if taken else []
     found: dict[str, dict[str, int]] = {}

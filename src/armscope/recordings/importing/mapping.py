@@ -189,11 +189,8 @@ class Columns(Groups):
         return [*found, *(turned.columns if turned is not None else ())]
 
     def check_beside(self, known: set[str], of_run: str) -> None:
-        """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files.
-
-        Raises:
-            ValueError: no file beside has this name.
-        """
+        """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files. Raises
+        ValueError: no file beside has this name."""
         wanted = {column.partition(":")[0] for column in self.measured() if isinstance(column, str) and ":" in column}
         wanted = wanted if known else set()
         if self.id is not None and self.id.row_of is not None:

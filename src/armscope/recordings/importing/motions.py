@@ -161,10 +161,7 @@ def _scaled(piece: Piece, group: MotorPositions | Velocities) -> Array:
 
 
 def load_any_mapping(path: Path | str) -> Mapping | MotionMapping:
-    """Read mapping.yaml of points or, where it says `table: motions`, of motions.
-
-    Raises:
-        InputError: a key, unit or group that can't be; it names the place, the rule and the nearest known key.
-    """
+    """Read mapping.yaml of points or, where it says `table: motions`, of motions. Raises InputError: a key, unit or
+    group that can't be; it names the place, the rule and the nearest known key."""
     content = read_keys(path)
     return validate(MotionMapping, content, path) if "table" in content else validate(Mapping, content, path)

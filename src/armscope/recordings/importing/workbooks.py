@@ -25,11 +25,8 @@ def is_workbook(start: bytes) -> bool:
 
 
 def sheets_of(path: Path) -> list[str]:
-    """Names of a workbook's sheets that hold cells, charts left out.
-
-    Raises:
-        InputError: it is no workbook, or too large a one.
-    """
+    """Names of a workbook's sheets that hold cells, charts left out. Raises InputError: it is no workbook, or too
+    large a one."""
     return [sheet.title for sheet in _opened(path).worksheets]
 
 

@@ -22,10 +22,7 @@ WIDE = 210.0
 
 def draw_poses(arm: Arm, motor_angles: Array) -> Drawing:
     """Small drawings of the arm in each pose (at most `MOST_POSES`), each seen from its side, all to one scale.
-
-    Args:
-        motor_angles: (K, m) rad, K >= 1.
-    """
+    ``motor_angles``: (K, m) rad, K >= 1."""
     shapes = [arm_shape(arm, angles) for angles in motor_angles[:MOST_POSES]]
     views = [_from_the_side(shape) for shape in shapes]
     corners = np.vstack([view.flat(shape.points) for view, shape in zip(views, shapes, strict=True)])

@@ -59,12 +59,8 @@ def _modelling_performance(errors: Array, predictions: Mapping[str, Array]) -> F
 
 
 def trajectory(positions: Array, motor_angles: Array) -> Figure:
-    """Figs. 5, 8, 9: a path in space (left) and the motor angles that follow it (right).
-
-    Args:
-        positions: (N, 3) nominal tool points in the base frame, mm.
-        motor_angles: (N, m) rad.
-    """
+    """Figs. 5, 8, 9: a path in space (left) and the motor angles that follow it (right). ``positions``: (N, 3)
+    nominal tool points in the base frame, mm; ``motor_angles``: (N, m) rad."""
     with styled():
         figure = plt.figure(figsize=(10, 4.4))
         grid = figure.add_gridspec(1, 2, width_ratios=(1.1, 1))

@@ -20,10 +20,7 @@ OTHERS = SKY, "^"
 
 def choice_figure(table: pd.DataFrame, title: str) -> Figure:
     """Three panels: O1 to O5 relative to random poses; error of the parameters; error at poses that took no part.
-
-    Args:
-        table: see `armscope.poses.compare.compare`.
-    """
+    ``table``: see `armscope.poses.compare.compare`."""
     with styled():
         figure, (indices, parameters, held_out) = plt.subplots(
             1, 3, figsize=(9.2, 3.1), gridspec_kw={"width_ratios": [1.5, 1, 1]}

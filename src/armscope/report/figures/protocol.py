@@ -26,11 +26,8 @@ BEST = "best figure of others"
 
 
 def draw_protocol(tables: Sequence[tuple[str, pd.DataFrame]]) -> Figure:
-    """One line per run; dots are means over the splits, bars their standard deviation.
-
-    Args:
-        tables: (arm, its protocol.csv) in their order.
-    """
+    """One line per run; dots are means over the splits, bars their standard deviation. ``tables``: (arm, its
+    protocol.csv) in their order."""
     runs = [(arm, run, rows) for arm, table in tables for run, rows in table.groupby("run", sort=False)]
     with styled():
         figure, axes = plt.subplots(figsize=(7.6, 1.1 + 0.36 * len(runs)))

@@ -29,11 +29,7 @@ def twist_figures(subject: MotionSubject) -> Iterator[Drawn]:
 
 
 def draw_twist(twist: JudgedTwist, torque_unit: str) -> Drawing:
-    """Link less motor, less their zeros' difference, over torque.
-
-    Args:
-        torque_unit: N m, or N of a sliding joint.
-    """
+    """Link less motor, less their zeros' difference, over torque. ``torque_unit``: N m, or N of a sliding joint."""
     rows, zero = twist.selected.rows, twist.side.offset.value
     few = spread_evenly(len(rows), MOST_DOTS)
     factor, unit = (1e3, "mrad") if twist.side.unit == "rad" else (1e6, "µm")

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FormatStrFormatter, MaxNLocator, NullFormatter
 
 from armscope.paper.claims import IMPROVED
-from armscope.paper.claims.table import CLAIMS
+from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.decisive_errors import SPEAKS_FROM, meaning
 from armscope.report.style import BLUE, VERMILION, legend_above, panel_grid, styled
 

@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from armscope.core.config import Paper, stated_numbers
-from armscope.paper.claims.table import CLAIMS
+from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.convergence import iterations_needed
 from armscope.paper.decisive_errors import meaning
 from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts
@@ -34,11 +34,8 @@ class Row:
 
 
 def table2_blocks(table: pd.DataFrame, marks: Contradictions) -> list[tuple[str, list[Row]]]:
-    """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and axis.
-
-    Args:
-        table: as `armscope.paper.table2` returns it.
-    """
+    """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and
+    axis. ``table``: as `armscope.paper.table2` returns it."""
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])
     drawn = table["rss_ensemble_median"].notna().any()

@@ -40,11 +40,7 @@ class MotionCard:
 
 
 def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
-    """The card of a cause.
-
-    Args:
-        number: of it among the causes of torque (from 1); other words make another anchor.
-    """
+    """The card of a cause. ``number``: of it among the causes of torque (from 1); other words make another anchor."""
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)
     known = cause_named(cause.effect)
     labels = known.labels if known else {}

@@ -48,11 +48,8 @@ class MotionTask:
 
 
 def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
-    """What the work order of a motion is filled with.
-
-    Returns:
-        Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
-    """
+    """What the work order of a motion is filled with. Returns tasks of the causes, largest share first; those worth
+    little in a word each; friction and rotors of the joints."""
     verdict = subject.verdict
     background, with_masses, *after = subject.found.entered
     expected_after = {cause.title: step.whole for cause, step in zip(verdict.effects, after, strict=True)}

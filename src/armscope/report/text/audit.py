@@ -53,10 +53,7 @@ class Contradictions:
 
 def contradictions(audit: pd.DataFrame) -> Contradictions:
     """Cells and trajectories of the printed table, read as "rss", that contradict its equations, or each other.
-
-    Args:
-        audit: see `armscope.paper.audit`.
-    """
+    ``audit``: see `armscope.paper.audit`."""
     broken = audit[(audit["reading"] == "rss") & ~audit["possible"].astype(bool)]
     single = broken[broken["axis"].isin(AXES)]
     cells: set[tuple[str, str, str]] = set()

@@ -114,11 +114,7 @@ class MotionSpec(Strict):
 
 
 def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:
-    """The worlds of a proof.
-
-    Args:
-        proof_seed: from which the seeds of every second world are derived.
-    """
+    """The worlds of a proof. ``proof_seed``: from which the seeds of every second world are derived."""
     recipes = list(_small() if size == "small" else _full())
     return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]
 

@@ -92,11 +92,7 @@ LINKED: tuple[Kind, ...] = (
 
 
 def link_rivals(stage: Stage, j: int) -> Iterator[Rival]:
-    """Every cause of a link beside its motor at one joint, as patterns (N, k).
-
-    Args:
-        j: the joint, from 0.
-    """
+    """Every cause of a link beside its motor at one joint, as patterns (N, k). ``j``: the joint, from 0."""
     place, load, angle = f"joint {j + 1}", stage.load[:, [j]], stage.session.angle[:, [j]]
     yield Rival("joint_elasticity", place, -load)
     yield Rival("joint_play", place, -np.sign(load))

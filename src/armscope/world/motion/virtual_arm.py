@@ -33,11 +33,8 @@ class VirtualArm(PlainArm):
     """An arm that can conceal things: what its drives and encoders then say, and how much of that stands out."""
 
     def torques(self, concealed: list[Concealed], session: Session | None = None) -> Array:
-        """(T, n) what the drives would record without noise, N m.
-
-        Raises:
-            ValueError: no body has the inertias that come out.
-        """
+        """(T, n) what the drives would record without noise, N m. Raises ValueError: no body has the inertias that
+        come out."""
         session = self.session if session is None else session
         geometry, dynamics = Geometry(self.description), self.dynamics
         for each in concealed:
