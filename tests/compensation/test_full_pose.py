@@ -9,8 +9,8 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.compensation.black_box import load_error_model, save_error_model
 from armscope.compensation.compensate import compensate_black_box
-from armscope.compensation.error_model_file import load_error_model, save_error_model
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.forward import BlackBoxArm
 from armscope.compensation.newton import Wanted

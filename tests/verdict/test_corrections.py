@@ -14,7 +14,7 @@ from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import row_terms
 from armscope.report.pages.diagnosis import write_work_order
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Subject
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description

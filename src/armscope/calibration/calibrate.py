@@ -7,15 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.confounding import Confounded, confounded_parameters
 from armscope.calibration.constants import CALIBRATING, FITTING
 from armscope.calibration.fit import placed
+from armscope.calibration.held_out import foretold, random_split
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
-from armscope.calibration.result import Calibration
+from armscope.calibration.result import Calibration, misses_by_run
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
-from armscope.calibration.splits import foretold, random_split
 from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.sampling import spread_evenly

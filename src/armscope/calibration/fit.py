@@ -16,8 +16,7 @@ from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, g
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.measurement import robust
 
-Rule = Callable[[Array], Array]
-"""(N,) weights by what is left of the points (N, 3), m."""
+Rule = Callable[[Array], Array]  # (N,) weights by what is left of the points (N, 3), m
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +62,7 @@ class _Calibration(NonlinearProblem[State, Posed]):
 
 
 def least_squares(
-    set_up: SetUp,
-    state: State,
-    free: NDArray[np.bool_],
-    stiffness: Array | None = None,
-    rule: Rule = all_alike,
+    set_up: SetUp, state: State, free: NDArray[np.bool_], stiffness: Array | None = None, rule: Rule = all_alike
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
 

@@ -215,11 +215,7 @@ def _of(name: str) -> str:
 
 
 def set_up(
-    arm: Arm,
-    recordings: Recordings,
-    one_base: bool = False,
-    tool_per_run: bool = False,
-    orientation: bool = False,
+    arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_run: bool = False, orientation: bool = False
 ) -> SetUp:
     """Recordings as a set-up of base frames (one per run) and tools (one per target).
 

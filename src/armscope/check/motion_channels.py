@@ -18,10 +18,8 @@ from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 from armscope.verdict.wording import percent, times
 
-SIGN = "has the sign opposite"
-"""What is said of every torque whose sign is turned, after its name."""
-OF_MASSES = "what moves the stated masses"
-"""Opposite to which it is, where it is masses that say so."""
+SIGN = "has the sign opposite"  # What is said of every torque whose sign is turned, after its name
+OF_MASSES = "what moves the stated masses"  # Opposite to which it is, where it is masses that say so
 
 
 @dataclass(frozen=True)

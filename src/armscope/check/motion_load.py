@@ -7,13 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import (
-    Samples,
-    beyond_friction,
-    left_in_all,
-    ordinary_columns,
-    read_otherwise,
-)
+from armscope.check.motion_readings import Samples, beyond_friction, left_in_all, ordinary_columns, read_otherwise
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array

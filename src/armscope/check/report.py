@@ -11,14 +11,7 @@ from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.enough_rows import still, too_few
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import (
-    BESIDE,
-    SAYS_MORE,
-    TOO_SHORT,
-    Suspicion,
-    first_of_suspicions,
-    verdict_lines,
-)
+from armscope.check.suspicion import BESIDE, SAYS_MORE, TOO_SHORT, Suspicion, first_of_suspicions, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.check.targets import named_row_by_row
 from armscope.core.files import plain_values

@@ -30,8 +30,7 @@ OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 WRITTEN = object()
 ALIKE, SOMEHOW_ALIKE = 0.7, 0.5
 """Likeness (0 to 1) from which a name is taken for a misspelt one: any, and one with the same ending."""
-NOMINAL = ("robot", "nominal")
-"""Parameters of this name are an arm: a file, or a name in the library."""
+NOMINAL = ("robot", "nominal")  # Parameters of this name are an arm: a file, or a name in the library
 WORKBOOKS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]

@@ -9,8 +9,7 @@ from pathlib import Path
 
 from armscope.recordings.first_lines import estimated_rows
 
-LONG_ROWS = 300_000
-"""A shorter table is done before anybody asks."""
+LONG_ROWS = 300_000  # A shorter table is done before anybody asks
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-MOST_NAMED = 5
-"""Suspect rows that the console names."""
+MOST_NAMED = 5  # Suspect rows that the console names
 
 PAGES = (
     "report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv",
@@ -46,8 +45,7 @@ def diagnose(
         int, typer.Option(min=0, help="how often rows are resampled to see which causes stay; 0 saves time")
     ] = 10,
     cross_validation: Annotated[
-        bool,
-        typer.Option(help="repeat the whole diagnosis without a part of the rows, to test it on these (slower)"),
+        bool, typer.Option(help="repeat the whole diagnosis without a part of the rows, to test it on these (slower)")
     ] = True,
     tool_per_run: Annotated[
         bool, typer.Option(help="fit the tool anew in every run: it was taken off in between")

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-MOST_SAMPLES = 1_000_000
-"""Of a motion: an hour at 250 Hz, which no controller takes as one table."""
+MOST_SAMPLES = 1_000_000  # Of a motion: an hour at 250 Hz, which no controller takes as one table
 
 
 @app.command()

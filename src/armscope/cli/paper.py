@@ -41,7 +41,7 @@ def measure(
     from armscope.cli.paper_settings import MeasureSettings
     from armscope.core.files import write_table
     from armscope.paper.enough_poses import enough_poses
-    from armscope.paper.study import measured
+    from armscope.paper.virtual import measured
     from armscope.robot import load_arm
 
     plan = plan_of(parsed(MeasureSettings, settings), load_arm(robot))
@@ -177,10 +177,7 @@ def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
 
 @app.command("outlook")
 def outlook_(
-    poses: Poses,
-    errors: ManyErrors,
-    output: Output,
-    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
+    poses: Poses, errors: ManyErrors, output: Output, seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
     from armscope.core.files import write_table

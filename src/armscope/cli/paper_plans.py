@@ -19,8 +19,7 @@ from armscope.core.config import Sensitivity, Tracker
 from armscope.paper.audit_scope import AuditScope
 from armscope.paper.scenarios import Scenario, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting
-from armscope.paper.study import Sizes, StudyPlan
-from armscope.paper.virtual import PlannedPaths, PlannedPoses
+from armscope.paper.virtual import PlannedPaths, PlannedPoses, Sizes, StudyPlan
 from armscope.robot import Arm, load_arm
 from armscope.world.tracker import Tracker as VirtualTracker
 

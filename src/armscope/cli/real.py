@@ -94,18 +94,13 @@ def protocol(
 
 
 @app.command()
-def regions(
-    recordings: Recorded,
-    robot: ItsRobot,
-    reference: Stated,
-    output: Output,
-) -> None:
+def regions(recordings: Recorded, robot: ItsRobot, reference: Stated, output: Output) -> None:
     """Foretell whole regions that took no part: the last rows, the farthest, the highest, those on one side."""
     import pandas as pd
 
     from armscope.core.files import write_table
+    from armscope.real.protocol import measure_regions
     from armscope.real.reference import load_reference
-    from armscope.real.regions import measure_regions
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
@@ -189,8 +184,7 @@ def plant(
 
 @app.command()
 def score(
-    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")],
-    output: Output,
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")], output: Output
 ) -> None:
     """Unseal what was concealed in real recordings, compare it with the verdicts, and write tables."""
     from armscope.core.files import write_table
@@ -263,9 +257,7 @@ def page(
 
 @app.command()
 def concealed(
-    output: Annotated[Path, typer.Argument(help="the page, docs/real-concealed.md")],
-    settings: Settings,
-    of: Of,
+    output: Annotated[Path, typer.Argument(help="the page, docs/real-concealed.md")], settings: Settings, of: Of
 ) -> None:
     """Write how often known effects were found that were concealed in recordings of real arms, from results."""
     from armscope.cli.real import ConcealedSettings

@@ -22,13 +22,12 @@ from armscope.comparison.bad_shots import bad_shots
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
-from armscope.comparison.gained import more_or_less, more_sigmas, own_values, stands
+from armscope.comparison.gained import more_or_less, more_sigmas, own_values, seen, stands
 from armscope.comparison.measured_points import measured_points
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import SENSE, Change, Comparison, Kind, Left, Sense
 from armscope.comparison.search import as_steps, likeliest_changes
-from armscope.comparison.seen import seen
 from armscope.comparison.sets import left_out_context, of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.valued import Valued

@@ -19,8 +19,7 @@ from armscope.comparison.constants import COMPARING
 from armscope.core.types import Array
 from armscope.physics.effect import Placed
 
-STEPS = np.geomspace(1.0, COMPARING.most_dispersion, COMPARING.dispersions)
-"""Factors that are tried."""
+STEPS = np.geomspace(1.0, COMPARING.most_dispersion, COMPARING.dispersions)  # Factors that are tried
 
 
 @dataclass(frozen=True)

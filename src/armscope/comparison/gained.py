@@ -10,17 +10,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.special import fdtri
+from scipy.special import fdtri, nctdtrinc, stdtrit
 
 from armscope.comparison.at_the_tool import beyond_frames
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.dispersion import Possible
 from armscope.comparison.penalised import HeldColumns
-from armscope.comparison.result import Change, Sense
+from armscope.comparison.result import Change, Seen, Sense
+from armscope.comparison.scoring import numbers_behind
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.valued import Valued
 from armscope.core.types import Array
 from armscope.physics.effect import Placed
+from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named
 from armscope.verdict.effects import INTERVAL
 
@@ -56,8 +58,7 @@ def own_values(
     return values, np.asarray(model.dispersion * variance * inverse[-own.shape[1] :, -own.shape[1] :]), free
 
 
-NOT_NEGATIVE = ("backlash",)
-"""Beside what gives way: a gap that is less than none is none."""
+NOT_NEGATIVE = ("backlash",)  # Beside what gives way: a gap that is less than none is none
 
 
 def cannot_be_negative(effect: str, numbers: int) -> bool:
@@ -155,3 +156,40 @@ def least_seen_mm(model: SharedModel, found: Possible, taken: Sequence[Possible]
     q, variance = len(found.placed.terms), model.variance(taken)
     least = fdtri(q, len(model.weight) - q, 1 - COMPARING.level / tried)
     return float(np.sqrt(q * least * model.dispersion * variance * sum(1 / each for each in points)))
+
+
+def seen(model: SharedModel, possible: Sequence[Possible], found: Sequence[Possible]) -> tuple[Seen, ...]:
+    """How far the zero of each joint must move to be seen, whichever of the recordings it moves in.
+
+    Args:
+        model: what recordings share.
+        possible: all changes that are tried.
+        found: what changed, and is no noise.
+
+    Returns:
+        One for each joint.
+    """
+    zeros = [each for each in possible if each.placed.effect is JOINT_OFFSET]
+    if not zeros:
+        return ()
+    least: dict[str, float] = {}
+    sizes = _smallest(model, zeros, COMPARING.level / len(possible), found)
+    for each, size in zip(zeros, sizes, strict=True):
+        least[each.placed.location] = max(float(size), least.get(each.placed.location, 0.0))
+    return tuple(Seen(location, size) for location, size in least.items())
+
+
+def _smallest(model: SharedModel, zeros: Sequence[Possible], level: float, found: Sequence[Possible]) -> Array:
+    """(n,) rad, of zeros each alone beside all that is shared; infinite where the rows tell nothing of it."""
+    base = model.base(())
+    variance, free = model.left(model.base(found))
+    columns = np.column_stack([model.columns(each)[:, 0] for each in zeros])
+    square = np.array([model.size(each)[0] ** 2 for each in zeros])
+    beyond = base.beyond(columns)
+    information = np.sum(columns * beyond, axis=0)
+    usual = np.array([each.plausible[0] for each in zeros])
+    unseen = (square <= variance / usual**2) | (base.fixed.information(columns).diagonal() <= SHARED.unseen * square)
+    # F of one number is the square of t, of which a change makes a noncentral one
+    known = numbers_behind(base, beyond, free, model.own) - 1
+    least = nctdtrinc(known, 1 - COMPARING.power, stdtrit(known, 1 - level / 2))
+    return np.where(unseen, np.inf, least * np.sqrt(model.dispersion * variance / np.where(unseen, 1, information)))

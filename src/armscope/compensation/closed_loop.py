@@ -20,8 +20,7 @@ from armscope.recordings.columns import ERROR_COLUMNS, angle_columns
 from armscope.recordings.table import unmeasured
 from armscope.robot import Arm
 
-NO_MODEL = "Uncompensated"
-"""The negative control: the nominal commands."""
+NO_MODEL = "Uncompensated"  # The negative control: the nominal commands
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,15 +15,7 @@ from armscope.core.types import Array
 from armscope.errormodels.features import FeatureSet, ModelSpec
 from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.products import ProductFeatures, fit_products
-from armscope.errormodels.regions import (
-    Cut,
-    blended,
-    chosen_regions,
-    compare_regions,
-    divide,
-    fit_regions,
-    halvings_of,
-)
+from armscope.errormodels.regions import Cut, blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
 from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames

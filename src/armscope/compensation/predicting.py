@@ -175,8 +175,7 @@ def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
 
 def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
     """As `_by_physics` for a black-box model; poses outside the identified range are named."""
-    from armscope.compensation.black_box import domain_inputs
-    from armscope.compensation.error_model_file import load_error_model
+    from armscope.compensation.black_box import domain_inputs, load_error_model
 
     fitted = load_error_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)

@@ -18,8 +18,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 
 NOT_THERE = "9E9"
-AXES = len(("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"))
-"""Of a joint target: the robot's, and as many others."""
+AXES = len(("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"))  # Of a joint target: the robot's, and as many others
 LARGEST = AXES + 1
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
 TARGET = re.compile(r"CONST\s+jointtarget\s+(\w+)\s*:=\s*\[\s*\[([^\]]*)\]\s*,\s*\[([^\]]*)\]\s*\]\s*;", re.IGNORECASE)

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.constants import COMMANDS
-from armscope.compensation.correction import correct
 from armscope.compensation.domain import Domain
 from armscope.compensation.forward import Forward, NominalArm
-from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
+from armscope.compensation.newton import Solution, Wanted, correct, row_pieces, solve_commands
 from armscope.compensation.nominal_path import nominal_branch
 from armscope.compensation.path import Frame, WantedPath, unit_doubt
 from armscope.compensation.reachable import Reachable, reachable_by

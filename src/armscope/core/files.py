@@ -31,10 +31,8 @@ if TYPE_CHECKING:
 
 LARGEST_UNPACKED_SHARE = 200
 """Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
-ROWS_AT_A_TIME = 10_000
-"""Numbers as text take several times their memory: of thirty columns some forty megabytes."""
-LONGEST_WHOLE = 18
-"""Digits of a whole number."""
+ROWS_AT_A_TIME = 10_000  # Numbers as text take several times their memory: of thirty columns some forty megabytes
+LONGEST_WHOLE = 18  # Digits of a whole number
 
 
 def writable(folder: Path | str, *names: str) -> Path:

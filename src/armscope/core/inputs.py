@@ -116,8 +116,7 @@ def unreadable(path: Path, error: OSError, endings: tuple[str, ...]) -> tuple[st
     )
 
 
-MOST_OFFERED = 3
-"""Files of a folder that an error offers."""
+MOST_OFFERED = 3  # Files of a folder that an error offers
 
 LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
 """Beyond these a name is no slip of the pen, and likeness takes too long to measure."""

@@ -13,8 +13,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-TRIES, PAUSE_S = 5, 0.05
-"""A run that tidies up holds the locks of dead ones for a moment."""
+TRIES, PAUSE_S = 5, 0.05  # A run that tidies up holds the locks of dead ones for a moment
 _NO_FLOCK = (errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS, errno.EINVAL)
 
 

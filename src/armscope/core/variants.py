@@ -17,8 +17,7 @@ VARIED = {
 }  # fmt: skip
 """What is on the horizontal axis of a sweep, by the first word of its name; all others vary the model's order."""
 
-OPTIONAL = ("basis", "layout")
-"""Columns that may be left out or empty."""
+OPTIONAL = ("basis", "layout")  # Columns that may be left out or empty
 
 
 class Variant(Strict):

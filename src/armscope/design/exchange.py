@@ -22,10 +22,8 @@ from armscope.design.indices import observability, observability_slopes
 
 Rows = Indices
 
-WORTHWHILE = 1e-6
-"""A swap that gains less than this share is not made: it would only follow rounding."""
-SHORTLIST = (6, 30)
-"""Poses that may leave, and candidates that may enter, in a round of the exchange for O2 to O5."""
+WORTHWHILE = 1e-6  # A swap that gains less than this share is not made: it would only follow rounding
+SHORTLIST = (6, 30)  # Poses that may leave, and candidates that may enter, in a round of the exchange for O2 to O5
 ROUNDS = 200
 
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 
-FINENESS = 8
-"""Samples per wave of the highest harmonic at which extremes are looked for."""
+FINENESS = 8  # Samples per wave of the highest harmonic at which extremes are looked for
 
 
 @dataclass(frozen=True, eq=False)

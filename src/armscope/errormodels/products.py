@@ -23,14 +23,11 @@ from armscope.core.types import Array
 from armscope.errormodels.features import STILL, ModelSpec, checked_inputs, input_names
 from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 
-Factor = tuple[int, str, int]
-"""(input, "T" or "cos" or "sin", order)."""
+Factor = tuple[int, str, int]  # (input, "T" or "cos" or "sin", order)
 Term = tuple[Factor, ...]
 
-MOST_INPUTS = 3
-"""A term multiplies at most so many inputs."""
-LARGEST_SHARE = 0.4
-"""At most so many terms per row."""
+MOST_INPUTS = 3  # A term multiplies at most so many inputs
+LARGEST_SHARE = 0.4  # At most so many terms per row
 CARRIES_NOTHING = 1e-10
 """A column whose square falls to this share once the chosen ones are taken out of it is one of their combinations."""
 

@@ -14,8 +14,7 @@ from armscope.errormodels.least_squares import fit_least_squares
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 
-MOST_ROWS = 4000
-"""Longer tables are thinned: the comparison does not need more."""
+MOST_ROWS = 4000  # Longer tables are thinned: the comparison does not need more
 
 
 def held_out_rms(arm: Arm, recordings: Recordings, residual: Array) -> list[tuple[str, float]]:

@@ -21,10 +21,8 @@ from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
 from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 from armscope.errormodels.products import ProductFeatures
 
-OVERLAP = 0.5
-"""Half the width of the blended band, in standard deviations of the rows that a cut divides."""
-ROWS_PER_TERM = 1.5
-"""A region needs at least so many rows (by weight) per term."""
+OVERLAP = 0.5  # Half the width of the blended band, in standard deviations of the rows that a cut divides
+ROWS_PER_TERM = 1.5  # A region needs at least so many rows (by weight) per term
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
 
-NO_VERDICT = "no verdict"
-"""What stands as the answer of a diagnosis that was not made."""
+NO_VERDICT = "no verdict"  # What stands as the answer of a diagnosis that was not made
 
 
 def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:

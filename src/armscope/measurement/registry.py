@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from armscope.measurement.channel import Channel
-from armscope.measurement.orientations import ORIENTATIONS
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import ORIENTATIONS, POSITIONS, Channel
 from armscope.recordings import Recordings
 
-CHANNELS: tuple[Channel, ...] = (POSITIONS, ORIENTATIONS)
-"""The first is the reference: it is always measured."""
+CHANNELS: tuple[Channel, ...] = (POSITIONS, ORIENTATIONS)  # The first is the reference: it is always measured
 
 
 def supported(recordings: Recordings, channels: Sequence[Channel] = CHANNELS) -> tuple[Channel, ...]:

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.measurement import robust
-from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.channel import POSITIONS, Channel, ChannelResiduals
 from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import Whitener
 
 

@@ -15,9 +15,8 @@ from armscope.core.told import paragraphs, table
 from armscope.notebook.notes import with_notes
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
-from armscope.report.sectioning import figure_named
+from armscope.report.sectioning import Subject, figure_named
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.files import write_verdict

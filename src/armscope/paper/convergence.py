@@ -23,8 +23,7 @@ RULES: dict[str, dict[str, Any]] = {
 """The compared rules; `original` is the update as the paper prints it (section 5)."""
 RANDOM_SEARCH = "random search"
 CLOSE_PERCENT = 1.0
-SMALLEST_PERCENT = 1e-8
-"""Differences below this share of the optimum are rounding."""
+SMALLEST_PERCENT = 1e-8  # Differences below this share of the optimum are rounding
 
 
 def convergence(

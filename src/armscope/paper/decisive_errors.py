@@ -17,10 +17,8 @@ from armscope.core.types import Array
 
 MOST_ERRORS = 3
 FOLDS = 10
-WORTH = 0.02
-"""An error enters if the share explained grows by this."""
-SPEAKS_FROM = 0.1
-"""Below this share, nothing is said to decide."""
+WORTH = 0.02  # An error enters if the share explained grows by this
+SPEAKS_FROM = 0.1  # Below this share, nothing is said to decide
 
 MEANINGS = {
     "a": "length a", "alpha": "twist α", "d": "offset d", "theta": "zero of joint", "beta": "tilt of axis",

@@ -30,23 +30,16 @@ from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 
-BENT_WRIST = {4: 0.3, 5: 0.7}
-"""Angles of the wrist's motors along the trajectories, rad (assumed)."""
+BENT_WRIST = {4: 0.3, 5: 0.7}  # Angles of the wrist's motors along the trajectories, rad (assumed)
 MARGIN_RAD = 0.1
 WRIST_MARGIN_RAD = 0.3
 """The identification poses' ranges are the trajectories', widened by this (assumed; wrists need room to correct)."""
 CANDIDATES = 2000
-NOISE_MM, NOISE_MRAD = 0.03, 0.05
-"""1-sigma per axis of a tracker with an orientation probe (assumed)."""
+NOISE_MM, NOISE_MRAD = 0.03, 0.05  # 1-sigma per axis of a tracker with an orientation probe (assumed)
 
 
 def paper_full_pose(
-    arm: Arm,
-    measurements: Measurements,
-    errors: Array,
-    models: ModelSet,
-    seed: int = 0,
-    diagnosed: bool = True,
+    arm: Arm, measurements: Measurements, errors: Array, models: ModelSet, seed: int = 0, diagnosed: bool = True
 ) -> pd.DataFrame:
     """Model by trajectory by stage, position and orientation, for the first robot of a study.
 

@@ -18,12 +18,10 @@ from numpy.typing import ArrayLike
 
 from armscope.core.types import Array, Indices
 
-IDENTIFIABLE = 1e-6
-"""A combination of parameters counts as identifiable above this share of the largest singular value."""
+IDENTIFIABLE = 1e-6  # A combination of parameters counts as identifiable above this share of the largest singular value
 
 EXCHANGES = 200
-RANDOM_DRAWS = 50
-"""Choices at random that the index is compared with."""
+RANDOM_DRAWS = 50  # Choices at random that the index is compared with
 
 
 @dataclass(frozen=True)

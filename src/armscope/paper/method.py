@@ -29,8 +29,7 @@ from armscope.swarm.settings import SwarmSettings
 BASES = tuple(kind.value for kind in BasisKind)
 LAYOUTS = tuple(layout.value for layout in (Layout.JOINT, Layout.PER_AXIS))
 UPDATES = ("original", "constriction", "inertia")
-JUDGED = ("alternative", "iterations", "fourier", "same_outcome")
-"""The claims whose fate follows from the method."""
+JUDGED = ("alternative", "iterations", "fourier", "same_outcome")  # The claims whose fate follows from the method
 
 CLAIM_COLUMNS = ["basis", "layout", "update", "key", "true", "robots", "share", "share_low", "share_high"]
 PRINTED_BASIS, PRINTED_LAYOUT, PRINTED_UPDATE = BASES[0], LAYOUTS[0], UPDATES[0]

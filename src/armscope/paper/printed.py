@@ -23,8 +23,7 @@ PRINTED_MODELS: dict[str, ModelSpec] = {spec.name: spec for spec in (FDP_CI, FDP
 EQUATIONS = {"FDP(AI)": 9, "SDP(AI)": 12, "FDP(CI)": 15, "SDP(CI)": 18}
 """The number of each model's first equation (x); y and z follow."""
 
-HALF_DIGIT_MM = 0.05
-"""Table 2 is printed with one decimal."""
+HALF_DIGIT_MM = 0.05  # Table 2 is printed with one decimal
 
 
 def printed_table2() -> pd.DataFrame:

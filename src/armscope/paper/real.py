@@ -25,8 +25,7 @@ from armscope.world.tolerances import geometric_errors
 
 HELD_OUT = "held out"
 MOST_CANDIDATES = 3000
-LARGEST_SHARE = 0.7
-"""At most this share of the configurations is used for identification, where there are few."""
+LARGEST_SHARE = 0.7  # At most this share of the configurations is used for identification, where there are few
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,7 @@ from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import AXES, UNCOMPENSATED
 
-SPATIAL = "3D"
-"""The fourth "axis": the length of the error vector."""
+SPATIAL = "3D"  # The fourth "axis": the length of the error vector
 
 NO_SEED = -1
 COLUMNS = ["robot", "model", "trajectory", "axis", "method", "seed", "points", "rss_mm", "rms_mm"]

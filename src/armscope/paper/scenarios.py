@@ -10,8 +10,7 @@ import pandas as pd
 
 from armscope.core.config import Point
 from armscope.core.inputs import InputError
-from armscope.paper.study import Sizes, StudyPlan
-from armscope.paper.virtual import PlannedPaths
+from armscope.paper.virtual import PlannedPaths, Sizes, StudyPlan
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]

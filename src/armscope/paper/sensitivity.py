@@ -19,8 +19,8 @@ from armscope.paper.outlook import outlook
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.residuals import SPATIAL
 from armscope.paper.scenarios import Scenario
-from armscope.paper.study import measured
 from armscope.paper.sub_volumes import sub_volumes
+from armscope.paper.virtual import measured
 from armscope.swarm.settings import SwarmSettings
 
 COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "robots", "share"]

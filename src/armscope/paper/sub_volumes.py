@@ -14,8 +14,7 @@ from armscope.core.types import Array, Indices
 from armscope.errormodels.features import FDP_CI, SDP_CI, ModelSpec
 from armscope.paper.measurements import Measurements
 
-SPLIT_ORDER = (1, 2)
-"""Halved along y first, then along z (columns of the nominal position)."""
+SPLIT_ORDER = (1, 2)  # Halved along y first, then along z (columns of the nominal position)
 
 
 def sub_volumes(

@@ -11,8 +11,7 @@ from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.printed import EQUATIONS, TEST_TRAJECTORIES, printed_coefficients, printed_table2
 from armscope.paper.residuals import typical
 
-ENSEMBLE_RANGE = (5, 95)
-"""Per cent of the robots between which the ensemble's range is given."""
+ENSEMBLE_RANGE = (5, 95)  # Per cent of the robots between which the ensemble's range is given
 
 READINGS = {"rss": "root of the sum of squares", "rms": "root of the mean square"}
 """The two ways to read the table's "RMS": by name of the columns."""

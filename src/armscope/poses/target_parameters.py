@@ -24,8 +24,7 @@ from armscope.poses.constants import CHOOSING
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-GEOMETRY = "geometry"
-"""The default set of effects: constant errors of all D-H rows and all motors' zeros."""
+GEOMETRY = "geometry"  # The default set of effects: constant errors of all D-H rows and all motors' zeros
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,8 +18,7 @@ from armscope.proof.answers import read_answer
 from armscope.proof.scoring import World
 from armscope.proof.truth import unseal
 
-ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}
-"""All that a diagnosing job may see of a world."""
+ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}  # All that a diagnosing job may see of a world
 
 
 def read_worlds(folder: Path) -> Iterator[World]:

@@ -5,15 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from armscope.proof.answers import Answer, NamedEffect
-from armscope.proof.definitions import (
-    ABSURD_MM,
-    ABSURD_RAD,
-    ABSURD_TIMES,
-    AS_LARGE,
-    LARGEST_SMALL,
-    Name,
-    place,
-)
+from armscope.proof.definitions import ABSURD_MM, ABSURD_RAD, ABSURD_TIMES, AS_LARGE, LARGEST_SMALL, Name, place
 from armscope.proof.matching import Match, distinct
 from armscope.proof.truth import Concealed, Truth
 from armscope.verdict.effects import UNKNOWN

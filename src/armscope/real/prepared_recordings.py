@@ -16,7 +16,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.calibration.calibrate import calibrate
-from armscope.calibration.splits import random_split
+from armscope.calibration.held_out import random_split
 from armscope.core.grouping import named_configuration
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices

@@ -24,8 +24,7 @@ from armscope.real.reference import ReferenceTransfer
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-COMPLIANCES = "compliances"
-"""Compliances alone are carried over; the rest of the arm stays nominal."""
+COMPLIANCES = "compliances"  # Compliances alone are carried over; the rest of the arm stays nominal
 ARMSCOPE_ELASTIC = "armscope, elastic part alone"
 GEOMETRY_HERE, WITH_CURVES = "geometric, fitted here", "geometric, fitted here, other run's curves"
 """Held out: every D-H value is fitted to training rows of the run itself, without and with curves learned elsewhere."""

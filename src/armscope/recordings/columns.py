@@ -16,8 +16,7 @@ from armscope.recordings.constants import POSSIBLE, READING
 from armscope.recordings.first_lines import is_motion
 
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
-ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
-"""Of the tool point, measured minus nominal, in tables of studies."""
+ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]  # Of the tool point, measured minus nominal, in tables of studies
 QUATERNION = ["qw", "qx", "qy", "qz"]
 
 UNITS: dict[str, float] = {
@@ -52,8 +51,7 @@ class Column:
         return re.fullmatch(self.name.replace("{j}", r"[1-9]\d*"), header) is not None
 
 
-LONGEST_UNIT = 1 + POSSIBLE.off_unit
-"""Of a unit quaternion's number, as it is printed."""
+LONGEST_UNIT = 1 + POSSIBLE.off_unit  # Of a unit quaternion's number, as it is printed
 _ANGLE = "commanded angle of motor {j}; motors are counted from the base, the sign is the one of the robot's model"
 _POINT = "measured tool point along {axis} of the measurement frame, which may stand anywhere"
 _TURN = "measured orientation, measurement frame from tool frame, as a unit quaternion ({part}); all four or none"

@@ -22,12 +22,10 @@ from armscope.recordings.other_formats import what_it_is
 if TYPE_CHECKING:
     import pandas as pd  # slow to import
 
-WORDS = ("id", "run", "target")
-"""Columns that are words, even where they look like numbers or like a name for no value."""
+WORDS = ("id", "run", "target")  # Columns that are words, even where they look like numbers or like a name for no value
 
 
-Piece = tuple[int, int]
-"""Where whole lines of a file start and end, bytes."""
+Piece = tuple[int, int]  # Where whole lines of a file start and end, bytes
 
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
 """What stands for no value in a column of numbers."""

@@ -13,10 +13,8 @@ from armscope.core.types import Array
 from armscope.report.colours import INK, LINE, QUIET
 
 FONT = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
-LETTER = 0.56
-"""Width of a letter in heights of its font, on average."""
-TINY = 1e-300
-"""Below it steps between ticks are no numbers any more."""
+LETTER = 0.56  # Width of a letter in heights of its font, on average
+TINY = 1e-300  # Below it steps between ticks are no numbers any more
 
 
 @dataclass

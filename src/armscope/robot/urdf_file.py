@@ -17,8 +17,7 @@ TURNING = ("revolute", "continuous")
 TOOL_NAMES = ("tool0", "tool", "tcp", "tool_link", "tool_frame", "flange", "ee_link", "end_effector", "ee")
 """What the link that carries the tool is usually called, the commonest first (ROS-Industrial's convention)."""
 
-HANDS = ("gripper", "finger")
-"""Joints of these names open a hand; the arm ends before them."""
+HANDS = ("gripper", "finger")  # Joints of these names open a hand; the arm ends before them
 
 
 class GuessedChain(NamedTuple):

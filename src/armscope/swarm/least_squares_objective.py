@@ -64,8 +64,7 @@ class LeastSquares:
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 
-LANES = 16
-"""So many swarms are computed side by side."""
+LANES = 16  # So many swarms are computed side by side
 
 
 class Problems(NamedTuple):

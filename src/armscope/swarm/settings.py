@@ -41,10 +41,7 @@ def ring_best(best_fitness: NDArray[np.float64]) -> Indices:
     return np.asarray(candidates[chosen, itself])
 
 
-NEIGHBOURHOODS: dict[str, Callable[[NDArray[np.float64]], Indices]] = {
-    "gbest": global_best,
-    "ring": ring_best,
-}
+NEIGHBOURHOODS: dict[str, Callable[[NDArray[np.float64]], Indices]] = {"gbest": global_best, "ring": ring_best}
 
 
 @dataclass(frozen=True)

@@ -30,8 +30,7 @@ NUMBERS = {
 """Of a D-H row, as robot.yaml calls them: what an effect calls its error, and its name for people."""
 
 
-SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}
-"""What sets a zero, and the parameter by which."""
+SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}  # What sets a zero, and the parameter by which
 
 
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:

@@ -13,8 +13,7 @@ from armscope.verdict.sentences import exact_phrase
 from armscope.verdict.unsettled import kind_and_place
 from armscope.verdict.wording import effect_in_words, plain
 
-OPEN = "to be settled"
-"""What is changed about a cause that is not settled: nothing yet."""
+OPEN = "to be settled"  # What is changed about a cause that is not settled: nothing yet
 MEANWHILE = "Until then change nothing for it: commands by the whole model (armscope compensate) hold whichever it is."
 MAY_BE_READ_SO = (
     "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "

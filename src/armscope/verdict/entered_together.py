@@ -18,10 +18,8 @@ from armscope.verdict.doubts import OPEN
 from armscope.verdict.tasks import Task
 from armscope.verdict.wording import places_in_words
 
-Job = tuple[Task, Array]
-"""A task, and what the tool moves by what it cures."""
-CALIBRATION = "calibration"
-"""What is changed where zeros and rows are fitted afresh, to new measurements."""
+Job = tuple[Task, Array]  # A task, and what the tool moves by what it cures
+CALIBRATION = "calibration"  # What is changed where zeros and rows are fitted afresh, to new measurements
 CALIBRATED_LAST = "In this order, and with what comes first already done when the arm is measured for the calibration."
 TOGETHER = "Enter all of these before anything is measured or moved by them; one without the others makes it worse."
 

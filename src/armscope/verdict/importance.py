@@ -23,12 +23,7 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.physics.backgrounds import GEOMETRIC
-from armscope.verdict.calibrated import (
-    mended_by_calibration,
-    once_calibrated,
-    share_beside_its_like,
-    stands_out,
-)
+from armscope.verdict.calibrated import mended_by_calibration, once_calibrated, share_beside_its_like, stands_out
 from armscope.verdict.constants import REPAIRS, WORDS
 from armscope.verdict.contributions import Contributions, ground_of, parts_of
 from armscope.verdict.diagnosis import Diagnosis

@@ -31,8 +31,7 @@ from armscope.verdict.sentences import exact_phrase, phrase
 from armscope.verdict.untold import untold
 from armscope.verdict.wording import capitalised, half_interval, read_parameter
 
-FIND_OUT = "to be found out"
-"""What is changed about what scatters: nothing before it is known what it follows."""
+FIND_OUT = "to be found out"  # What is changed about what scatters: nothing before it is known what it follows
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,9 @@ from armscope.world.kinds import Scene
 from armscope.world.rivals import rivals
 from armscope.world.strength import Sized, free_frames
 
-ALTERNATIVE_NATS = 5.0
-"""A rival whose evidence falls short by less than this is an acceptable answer."""
-D_H_VALUES = ("joint_offset", "link_geometry")
-"""Rivals that a geometric calibration fits."""
-CURVE_COLUMNS = 3
-"""Columns charged for a free curve that stands for an effect outside the library."""
+ALTERNATIVE_NATS = 5.0  # A rival whose evidence falls short by less than this is an acceptable answer
+D_H_VALUES = ("joint_offset", "link_geometry")  # Rivals that a geometric calibration fits
+CURVE_COLUMNS = 3  # Columns charged for a free curve that stands for an effect outside the library
 
 
 @dataclass(frozen=True)

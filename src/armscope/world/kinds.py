@@ -14,8 +14,7 @@ from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session
 
 Values = Mapping[str, float]
-LEAST_TORQUE = 0.02
-"""Share of the arm's largest torque below which a joint counts as unloaded."""
+LEAST_TORQUE = 0.02  # Share of the arm's largest torque below which a joint counts as unloaded
 
 ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"
 TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", "speed", "constant"

@@ -13,8 +13,7 @@ from armscope.robot.description import LinkMass, RobotDescription
 SEGMENTS = 8
 """Segments of a bending link: the tip's deflection under an end load is 1 / (4 SEGMENTS^2) = 0.4 % below the beam's."""
 BASE_FREEDOMS = ("base x", "base y", "base z", "base rx", "base ry", "base rz")
-TARGET_FREEDOMS = ("target x", "target y", "target z")
-"""Slides of the measured point along the last frame's axes."""
+TARGET_FREEDOMS = ("target x", "target y", "target z")  # Slides of the measured point along the last frame's axes
 PEDESTAL = ("pedestal u", "pedestal v")
 """Hinges under the arm, level and square to each other, turned about z against the base's axes."""
 

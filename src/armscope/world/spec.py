@@ -25,8 +25,7 @@ Category = Literal[
 
 
 Details = dict[str, object]
-Recipe = Callable[[np.random.Generator], Details]
-"""What a world of a kind is made from, as far as that is drawn."""
+Recipe = Callable[[np.random.Generator], Details]  # What a world of a kind is made from, as far as that is drawn
 
 
 def seeded(number: int, fixed_seed: int, proof_seed: int) -> tuple[Details, np.random.Generator]:

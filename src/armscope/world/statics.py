@@ -74,9 +74,7 @@ class Hidden:
         before = self.layout.stiffness.get(name)
         total = compliance + (1 / before if before else 0.0)
         self.layout = replace(
-            self.layout,
-            freedoms=self.layout.freedoms | {name},
-            stiffness={**self.layout.stiffness, name: 1 / total},
+            self.layout, freedoms=self.layout.freedoms | {name}, stiffness={**self.layout.stiffness, name: 1 / total}
         )
 
     def motor_spring(self, motor: int, compliance: float) -> None:

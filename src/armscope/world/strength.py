@@ -169,8 +169,7 @@ def sized(
 
 SEEN_SHARE = 0.08
 """An effect of which the frames leave less than this share of its RMS isn't concealed: nobody could find it."""
-LARGEST_RAW_M = 0.02
-"""No effect moves the tool by more than this RMS."""
+LARGEST_RAW_M = 0.02  # No effect moves the tool by more than this RMS
 
 
 def carried(scene: Scene, effect: Concealed, carriers: list[Concealed], wanted: float) -> tuple[Sized, list[Sized]]:

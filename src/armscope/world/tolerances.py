@@ -81,8 +81,7 @@ def geometric_errors(
     return GeometricErrors(arm, names, locations, np.array(directions), np.array(sigmas), np.array(angulars))
 
 
-UnitError = tuple[str, Array, bool]
-"""Name, twist of a unit error, whether it is an angle."""
+UnitError = tuple[str, Array, bool]  # Name, twist of a unit error, whether it is an angle
 
 
 def _frame(prefix: str = "", suffix: str = "") -> list[UnitError]:

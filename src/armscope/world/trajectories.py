@@ -7,8 +7,7 @@ from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
 
-PLANES = {"xy": (0, 1, 2), "yz": (1, 2, 0)}
-"""The two axes of a spiral's plane and the third, which changes linearly."""
+PLANES = {"xy": (0, 1, 2), "yz": (1, 2, 0)}  # The two axes of a spiral's plane and the third, which changes linearly
 
 
 def rectangle(corners: ArrayLike, points_per_side: int) -> Array:

@@ -56,11 +56,7 @@ def shown_at_all(arm: Arm, limits: Limits, rng: np.random.Generator) -> Showable
     hidden = set(range(len(called))) - set(there)
     dependent = set(there) - set(base)
     return Showable(
-        base,
-        size[base],
-        weight,
-        tuple(called[k] for k in sorted(hidden)),
-        tuple(called[k] for k in sorted(dependent)),
+        base, size[base], weight, tuple(called[k] for k in sorted(hidden)), tuple(called[k] for k in sorted(dependent))
     )
 
 

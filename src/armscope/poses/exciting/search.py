@@ -14,14 +14,7 @@ from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.constants import MOTION
-from armscope.poses.exciting.criterion import (
-    MotionScore,
-    Pair,
-    Showable,
-    motion_score,
-    shown_at_all,
-    told_apart,
-)
+from armscope.poses.exciting.criterion import MotionScore, Pair, Showable, motion_score, shown_at_all, told_apart
 from armscope.poses.exciting.limits import MotionLimits, limits_of
 from armscope.poses.obstacles import REASONS, Surroundings, refusals
 from armscope.robot import Arm

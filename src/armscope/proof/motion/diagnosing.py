@@ -17,8 +17,7 @@ from armscope.proof.answers import FAILURE
 from armscope.proof.motion.answers import KEPT, NOT_PREDICTED, PREDICTED
 
 LONGEST_S = 1200.0
-LAST_WORDS = 2000
-"""Characters of what a failed command said that are kept."""
+LAST_WORDS = 2000  # Characters of what a failed command said that are kept
 
 
 def diagnose_worlds(worlds: Iterable[Path], output: Path) -> None:

@@ -16,8 +16,7 @@ from armscope.proof.motion.scoring import MotionWorld
 from armscope.proof.motion.truth import unseal
 from armscope.proof.reading import check_seal
 
-ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}
-"""All that a diagnosing job may see of a world."""
+ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}  # All that a diagnosing job may see of a world
 
 
 def read_worlds(folder: Path) -> Iterator[MotionWorld]:

@@ -79,8 +79,7 @@ COLUMNS = {
     "names": (*COMMON, "effect", "location", "minor", "evidence_nats", "right", "effect_right"),
     "intervals": (*COMMON, "effect", "location", "parameter", "unit", "true", "fitted", "stderr", "covered"),
 }  # fmt: skip
-ENOUGH_PREDICTED = 0.8
-"""Share of the test path that must have a prediction: filters lose the ends."""
+ENOUGH_PREDICTED = 0.8  # Share of the test path that must have a prediction: filters lose the ends
 ORDINARY = "ordinary"
 
 

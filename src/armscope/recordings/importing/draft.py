@@ -27,13 +27,7 @@ from armscope.recordings.importing.draft_motors import (
 from armscope.recordings.importing.draft_orientations import orientation_lines
 from armscope.recordings.importing.draft_points import points_of
 from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
-from armscope.recordings.importing.first_table import (
-    ForeignTable,
-    column_list,
-    first_table,
-    printable,
-    quoted,
-)
+from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, SPEED_UNITS, TORQUE_UNITS

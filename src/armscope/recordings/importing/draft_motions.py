@@ -15,13 +15,7 @@ from armscope.recordings.importing.draft import HEAD, RUNS, SCALARS, draft_mappi
 from armscope.recordings.importing.draft_motors import BESIDE, in_a_row, motor_columns, numbered_columns
 from armscope.recordings.importing.draft_points import points_of
 from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
-from armscope.recordings.importing.first_table import (
-    ForeignTable,
-    column_list,
-    first_table,
-    printable,
-    quoted,
-)
+from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.motions import MotionMapping
 from armscope.recordings.importing.stated_units import MOTION_ANGLES, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows

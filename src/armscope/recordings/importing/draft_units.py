@@ -8,8 +8,7 @@ from armscope.core.inputs import InputError
 from armscope.recordings.importing.first_table import ForeignTable, below_name, printable
 from armscope.recordings.importing.stated_units import stated_unit, unknown_unit
 
-FILL_IN = "FILL_IN"
-"""What no mapping takes for a unit: `armscope import` asks for one."""
+FILL_IN = "FILL_IN"  # What no mapping takes for a unit: `armscope import` asks for one
 
 
 def unit_of(table: ForeignTable, columns: Sequence[int], units: dict[str, str]) -> tuple[str | None, str]:

@@ -138,10 +138,7 @@ class MotionConverter:
         effort = columns.torque or columns.current
         assert effort is not None
         runs = runs_of_rows(piece, columns.run, self.run)
-        values = [
-            self.clock.time(piece, columns.time, runs)[:, None],
-            _scaled(piece, columns.positions),
-        ]
+        values = [self.clock.time(piece, columns.time, runs)[:, None], _scaled(piece, columns.positions)]
         if columns.speeds is not None:
             values.append(_scaled(piece, columns.speeds))
         values.append(required(piece, effort.columns) * effort.scale)

@@ -12,14 +12,11 @@ from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
 from armscope.robot.centre_line import centre_lines
 
-MOST_POSES = 30
-"""So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen."""
+MOST_POSES = 30  # So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen
 AZIMUTHS = np.radians(np.arange(0, 360, 15))
 ELEVATION = np.radians(18)
-STATIONS = 24
-"""Points along the centre line at which it is seen whether the arm lies over itself."""
-APART = 0.12
-"""Pieces of the arm that are farther apart than this share of the picture don't hide each other."""
+STATIONS = 24  # Points along the centre line at which it is seen whether the arm lies over itself
+APART = 0.12  # Pieces of the arm that are farther apart than this share of the picture don't hide each other
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,11 +21,9 @@ RUN_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 BIN_DEG = 10
 MOST_POINTS = 4000
 FARTHEST_LIMIT_DEG = 400
-ONE_POINT = 2e-3
-"""Points within so many metres of each other are one point in the figure."""
+ONE_POINT = 2e-3  # Points within so many metres of each other are one point in the figure
 
-VISIBLE = 0.01
-"""Share of the workspace below which points can't be told apart in the figure."""
+VISIBLE = 0.01  # Share of the workspace below which points can't be told apart in the figure
 
 
 def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:

@@ -10,13 +10,11 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.core.words import shown_unit
 from armscope.report.colours import AFTER, OUTLINE, PALE
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.report.svg import Drawing, Panel
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect
 
-WIDTH, HEIGHT = 440.0, 220.0
-"""Of a curve's picture, px."""
+WIDTH, HEIGHT = 440.0, 220.0  # Of a curve's picture, px
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,11 +23,9 @@ from armscope.report.colours import NOTHING, SHARES, SIGNED, between, darker, sc
 from armscope.report.figures.arm_shape import arm_shape, shares_by_place, typical_pose, upright
 from armscope.robot import Arm, Chain, chain
 
-MOST_ROWS = 12_000
-"""A page carries no more; of longer tables so many rows, spread evenly, and all suspects."""
+MOST_ROWS = 12_000  # A page carries no more; of longer tables so many rows, spread evenly, and all suspects
 SHADES = 33
-FAINTEST = 0.14
-"""Where the scale of sizes starts: dots must be seen on paper."""
+FAINTEST = 0.14  # Where the scale of sizes starts: dots must be seen on paper
 NAMED_SHARE = 0.005
 
 

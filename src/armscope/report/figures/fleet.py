@@ -13,8 +13,7 @@ from armscope.report.style import styled
 from armscope.verdict.wording import plain
 
 MOST_CAUSES, MOST_LABELS = 30, 60
-WORDS_PT = 9
-"""As high as the words of the page around it."""
+WORDS_PT = 9  # As high as the words of the page around it
 
 
 def fleet_figure(causes: pd.DataFrame) -> Figure:

@@ -96,8 +96,7 @@ def _joined(motor_angles: Array) -> list[tuple[str, Array]]:
     return lines
 
 
-Band = tuple[Array, Array]
-"""(low, high), each (N, 3), mm."""
+Band = tuple[Array, Array]  # (low, high), each (N, 3), mm
 
 
 def _estimation_performance(
@@ -139,8 +138,7 @@ def _shade(panel: Axes, points: Array, band: Band, axis: int, colour: str, label
     panel.fill_between(points, low, high, color=colour, alpha=0.28, linewidth=0, label=name)
 
 
-THINNEST_MM = 0.02
-"""A band narrower than this everywhere is not seen."""
+THINNEST_MM = 0.02  # A band narrower than this everywhere is not seen
 
 
 ARM_FIGURES = ("fig01", "fig02")
@@ -152,8 +150,7 @@ ESTIMATION_FIGURES = {
     "fig11": ("test 2", "angular"),
 }
 FIGURES = ("fig01", "fig02", "fig03", "fig04", "fig05", "fig06", "fig07", "fig08", "fig09", "fig10", "fig11")
-MOST_COLUMNS = 2
-"""So many models of one kind of input are drawn beside each other, as in the paper."""
+MOST_COLUMNS = 2  # So many models of one kind of input are drawn beside each other, as in the paper
 
 
 @dataclass(frozen=True, eq=False)

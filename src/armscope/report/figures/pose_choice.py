@@ -14,8 +14,7 @@ from armscope.report.style import BLUE, GREEN, GREY, ORANGE, SKY, legend_above, 
 
 COLOURS = {"chosen": BLUE, "random": ORANGE, "grid": GREEN}
 MARKERS = {"chosen": "D", "random": "o", "grid": "s"}
-OTHERS = SKY, "^"
-"""Colour and marker of choices by other criteria."""
+OTHERS = SKY, "^"  # Colour and marker of choices by other criteria
 
 
 def choice_figure(table: pd.DataFrame, title: str) -> Figure:

@@ -20,8 +20,7 @@ MODELS = {
     ORIENTED: (PURPLE, "P", "armscope, orientations too"),
 }  # fmt: skip
 TICKS_MM = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-BESIDE = 0.28
-"""How far below its line the model stands that learned from more than the others."""
+BESIDE = 0.28  # How far below its line the model stands that learned from more than the others
 BEST = "best figure of others"
 
 

@@ -13,11 +13,9 @@ from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
 
-WIDE, HIGH = 500.0, 230.0
-"""Of a picture, px."""
+WIDE, HIGH = 500.0, 230.0  # Of a picture, px
 MOST_DOTS = 600
-TWIST = (Key(QUIET, "as recorded"), Key(AFTER, "by the causes"))
-"""What the colours of the dots stand for."""
+TWIST = (Key(QUIET, "as recorded"), Key(AFTER, "by the causes"))  # What the colours of the dots stand for
 
 
 def twist_figures(subject: MotionSubject) -> Iterator[Drawn]:

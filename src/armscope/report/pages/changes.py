@@ -35,14 +35,10 @@ IN_WORDS = {
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
 LEFT_OPEN = "left open by these poses, unlike the difference"
 UNKNOWN = "left open by these poses"
-SMALLEST = 1e-6
-"""Smaller probabilities are not told apart: no test's assumptions hold so far out."""
-MOST_LISTED = 4
-"""Of more recordings the first and the last are named."""
-MOST_SHOTS = 20
-"""Bad shots that the page names."""
-RARE = 0.01
-"""Below it a probability is told as one in so many."""
+SMALLEST = 1e-6  # Smaller probabilities are not told apart: no test's assumptions hold so far out
+MOST_LISTED = 4  # Of more recordings the first and the last are named
+MOST_SHOTS = 20  # Bad shots that the page names
+RARE = 0.01  # Below it a probability is told as one in so many
 
 
 @dataclass(frozen=True)
@@ -246,11 +242,4 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
 
     plus = "+" if number.difference > 0 else ""
     also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
-    return ChangedNumber(
-        label,
-        told(before),
-        told(after),
-        f"{plus}{reading.value}",
-        also,
-        reading.interval,
-    )
+    return ChangedNumber(label, told(before), told(after), f"{plus}{reading.value}", also, reading.interval)

@@ -15,11 +15,10 @@ from armscope.core.files import write_table, write_text, yaml_text
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
-from armscope.report.sectioning import write_sections
+from armscope.report.sectioning import Subject, write_sections
 from armscope.report.sections.effect_cards import title_of
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.subject import Subject
 from armscope.robot.controllers import UR_KINEMATICS, ZEROS_IN_IT
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
@@ -211,10 +210,7 @@ def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     where += ", with those that fit nothing" * promise.of_all
     runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
     known = math.isfinite(verdict.noise_mm)
-    tiles = [
-        (millimetres(before), "error now", where),
-        (millimetres(after), "error with the fitted model", where),
-    ]
+    tiles = [(millimetres(before), "error now", where), (millimetres(after), "error with the fitted model", where)]
     if verdict.mismatch is None and not verdict.effects:
         tiles = [(millimetres(before), "error", "RMS per axis once base and tool are placed")]
     return [

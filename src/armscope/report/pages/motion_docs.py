@@ -15,8 +15,7 @@ from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
 from armscope.report.pages.readme import filled
 
-MEDIAN = "median"
-"""In the name of the one aim that is no rate."""
+MEDIAN = "median"  # In the name of the one aim that is no rate
 
 
 def fill_motion_pages(docs: Path, proof: Path | None, real: Path | None, of: str) -> None:

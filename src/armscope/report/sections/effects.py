@@ -7,9 +7,8 @@ from typing import Any
 
 from armscope.core.averages import rms
 from armscope.report.figures.effect_curve import effect_curves, worth_drawing
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.effect_cards import Card, card
-from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.payload_place import carries_over

@@ -57,8 +57,7 @@ def _side(side: LinkSide) -> dict[str, Any]:
 
 
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
-SEEN = 0.005
-"""Share from which what no cause explains has a line of its own."""
+SEEN = 0.005  # Share from which what no cause explains has a line of its own
 NOT_SEEN = "not seen"
 
 

@@ -60,9 +60,7 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
         evidence=_evidence(cause),
         alternatives=tuple(
             ShownAlternative(
-                _named(other),
-                gap_in_words(other),
-                abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS,
+                _named(other), gap_in_words(other), abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS
             )
             for other in cause.alternatives
         ),

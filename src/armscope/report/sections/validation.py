@@ -10,8 +10,7 @@ import pandas as pd
 
 from armscope.core.words import rounded
 from armscope.report.figures.waterfall import OTHER_MODELS, STEPS, waterfall_figure, waterfall_steps
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres
 

@@ -79,12 +79,10 @@ OUTSIDE: tuple[Kind, ...] = (
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in (*LIBRARY, GRIPPER, *OUTSIDE, *LINKED)}
 ARMS = ("two-axis", "six-axis", "seven-axis")
-RATES = (100, 125, 250)
-"""Hz; divisors of the grid's rate."""
+RATES = (100, 125, 250)  # Hz; divisors of the grid's rate
 FIXED_SEED = 20261122
 STRENGTHS = (3.0, 5.0, 10.0)
-OUT_OF_ROUGH = (2.0, 3.0, 5.0)
-"""Sizes of what stands out of a rough arm, over its noise and all that is rough together."""
+OUT_OF_ROUGH = (2.0, 3.0, 5.0)  # Sizes of what stands out of a rough arm, over its noise and all that is rough together
 
 Category = Literal["clean", "single", "multiple", "outside", "confounded", "rough"]
 Size = Literal["small", "full"]

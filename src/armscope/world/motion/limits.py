@@ -11,14 +11,12 @@ from armscope.world.motion.mechanism import MovingArm
 from armscope.world.motion.stage import PlainArm
 
 Numbers = Mapping[str, float]
-POSES_APART = 500
-"""Samples between the poses that are looked at."""
+POSES_APART = 500  # Samples between the poses that are looked at
 WRONG_MASS, WRONG_CENTRE = 0.6, 0.1
 """How wrong a drawing may be: share of a link's mass, and of the arm's longest link for its centre."""
 
 
-SLOWEST_SWING_HZ = 2.0
-"""A link that swings on its own drive more slowly is not driven along paths of seconds."""
+SLOWEST_SWING_HZ = 2.0  # A link that swings on its own drive more slowly is not driven along paths of seconds
 
 
 def holds_its_link(arm: PlainArm, joint: int, numbers: Numbers) -> bool:

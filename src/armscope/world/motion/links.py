@@ -21,14 +21,10 @@ from armscope.world.motion.session import GRID_HZ, Session
 from armscope.world.motion.stage import Stage
 from armscope.world.rivals import Rival
 
-NOISE_RAD = 2e-5
-"""Of link less motor, as encoders of some arc seconds have it."""
-ZERO_RAD = 1e-3
-"""Spread of the difference of two encoders' zeros."""
-ACROSS_S = 0.005
-"""In which a link goes from one end of its play to the other, to about a third."""
-WAVES = (1, 2)
-"""Per turn: a disc off its centre, an oval or tilted one."""
+NOISE_RAD = 2e-5  # Of link less motor, as encoders of some arc seconds have it
+ZERO_RAD = 1e-3  # Spread of the difference of two encoders' zeros
+ACROSS_S = 0.005  # In which a link goes from one end of its play to the other, to about a third
+WAVES = (1, 2)  # Per turn: a disc off its centre, an oval or tilted one
 
 
 def read_links(session: Session, rows: Indices, beside: Array, rng: np.random.Generator) -> tuple[Array, Array]:

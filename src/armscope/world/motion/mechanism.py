@@ -20,10 +20,8 @@ from armscope.world.mjcf import numbers, placed
 
 STIFF_FRICTION = 'solimpfriction="0.999 0.999 0.001" solreffriction="0.004 1"'
 """Dry friction that is fully there from about a milliradian per second on."""
-LEAST = 1e-9
-"""Friction below this many N m is left out of the model."""
-LEAST_INERTIA = 1e-12
-"""kg m^2: a point's, to an engine that allows no zero."""
+LEAST = 1e-9  # Friction below this many N m is left out of the model
+LEAST_INERTIA = 1e-12  # kg m^2: a point's, to an engine that allows no zero
 
 
 @dataclass(frozen=True)

@@ -12,16 +12,11 @@ from armscope.core.types import Array, Indices
 from armscope.world.motion.constants import ROUGH_MOTION as ROUGH
 from armscope.world.motion.session import GRID_HZ, Session
 
-ENCODER_STEPS = 2**19
-"""Of a turn of the joint, as good industrial arms resolve it."""
-TORQUE_STEPS = 2**13
-"""From the largest torque to its opposite."""
-ANTI_ALIAS = 0.4
-"""Cut-off of the drives' filter as a share of the recorded rate."""
-MEMORY_S = 0.02
-"""Half of a torque's noise is white; the other half is ripple and control noise that lasts this long."""
-SPEED_FILTER_S = 0.004
-"""Drives filter the speed that they report, which is late by as much."""
+ENCODER_STEPS = 2**19  # Of a turn of the joint, as good industrial arms resolve it
+TORQUE_STEPS = 2**13  # From the largest torque to its opposite
+ANTI_ALIAS = 0.4  # Cut-off of the drives' filter as a share of the recorded rate
+MEMORY_S = 0.02  # Half of a torque's noise is white; the other half is ripple and control noise that lasts this long
+SPEED_FILTER_S = 0.004  # Drives filter the speed that they report, which is late by as much
 
 
 @dataclass(frozen=True, eq=False)

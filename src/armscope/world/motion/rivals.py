@@ -30,8 +30,7 @@ MOST_SAMPLES = 600
 SMALL = 1e-4
 STRIBECK_SPEEDS = (0.05, 0.15, 0.4)
 CURVE_DEGREE = 5
-SEEN_NATS = 20.0
-"""From which there is something that another name could be as good for."""
+SEEN_NATS = 20.0  # From which there is something that another name could be as good for
 
 
 @dataclass(frozen=True)

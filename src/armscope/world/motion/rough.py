@@ -26,10 +26,8 @@ from armscope.world.motion.virtual_arm import VirtualArm
 from armscope.world.rough import between
 
 OF = {kind.name: kind for kind in LIBRARY}
-LEAST_SHARE = -0.7
-"""A body keeps some of its inertia."""
-DRIFTS = 3
-"""Waves that a wandering zero is made of."""
+LEAST_SHARE = -0.7  # A body keeps some of its inertia
+DRIFTS = 3  # Waves that a wandering zero is made of
 AS_GOOD = {
     "rest": ("coulomb_friction",), "bend": ("coulomb_friction", "viscous_friction"), "warm": ("viscous_friction",),
 }  # fmt: skip

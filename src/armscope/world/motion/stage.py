@@ -14,8 +14,7 @@ from armscope.world.layout import Geometry
 from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.session import Session
 
-STANDSTILL = 2e-3
-"""rad/s: below it the sign of a speed counts as a share only, as in `STIFF_FRICTION`."""
+STANDSTILL = 2e-3  # rad/s: below it the sign of a speed counts as a share only, as in `STIFF_FRICTION`
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,8 @@ import numpy as np
 
 from armscope.compensation import newton
 from armscope.compensation.constants import COMMANDS
-from armscope.compensation.correction import correct
 from armscope.compensation.forward import NominalArm
-from armscope.compensation.newton import Wanted, solve_commands
+from armscope.compensation.newton import Wanted, correct, solve_commands
 from armscope.core.parallel import processes
 from armscope.robot import load_arm, tool_frames
 

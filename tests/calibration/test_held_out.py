@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.calibration.splits import parts_to_test, random_split
+from armscope.calibration.held_out import parts_to_test, random_split
 from tests.calibration.worlds import far_away, measured, planted, poses, ur_like
 from tests.check.conftest import TOOL
 
