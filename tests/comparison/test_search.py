@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from armscope.comparison import compare
-from armscope.comparison.dispersion import Possible
+from armscope.comparison.scoring import Possible
 from armscope.comparison.search import as_steps
 from armscope.recordings import read_recordings
 from tests.comparison.test_changes import ARM, session

@@ -3,8 +3,7 @@
 import numpy as np
 
 from armscope.errormodels.extended import with_products, with_regions
-from armscope.errormodels.features import FDP_CI, ModelSpec
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import FDP_CI, ModelSpec, fit_least_squares
 
 RNG = np.random.default_rng(3)
 POINTS, ELSEWHERE = RNG.uniform(-1000, 1000, (85, 3)), RNG.uniform(-1000, 1000, (40, 3))

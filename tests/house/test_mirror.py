@@ -74,7 +74,6 @@ STILL_FROM_ELSEWHERE = [
     "report/sections/locations.py",
     "report/sections/work_order.py",
     "report/text/compliances.py",
-    "robot/centre_line.py",
     "world/effect_placement.py",
 ]
 """Tested by what calls them only. The list only gets shorter."""

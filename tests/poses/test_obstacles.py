@@ -10,7 +10,7 @@ from armscope.core.inputs import InputError
 from armscope.poses.body import collision_shapes, pieces
 from armscope.poses.obstacles import Surroundings, lowest, ranges, refusals, segment_distance, thinned
 from armscope.robot import chain, load_arm
-from armscope.robot.centre_line import centre_lines
+from armscope.robot.kinematics import centre_lines
 
 ROBOTS = Path(__file__).parents[2] / "config" / "robots"
 

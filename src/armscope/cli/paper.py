@@ -170,7 +170,7 @@ def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
 def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
     """What one model for each of several regions of the workspace leaves of the errors."""
     from armscope.core.files import write_table
-    from armscope.paper.sub_volumes import sub_volumes
+    from armscope.paper.outlook import sub_volumes
 
     write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
 
@@ -202,7 +202,7 @@ def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output
     """Compare the velocity updates: which reaches the least-squares optimum, and when."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
     from armscope.core.files import write_table
-    from armscope.paper.convergence import convergence as histories
+    from armscope.paper.method import convergence as histories
 
     chosen = parsed(SwarmStudySettings, settings)
     measurements = read_measurements(poses, errors)

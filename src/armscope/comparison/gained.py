@@ -14,10 +14,9 @@ from scipy.special import fdtri, nctdtrinc, stdtrit
 
 from armscope.comparison.at_the_tool import beyond_frames
 from armscope.comparison.constants import COMPARING, SHARED
-from armscope.comparison.dispersion import Possible
 from armscope.comparison.penalised import HeldColumns
 from armscope.comparison.result import Change, Seen, Sense
-from armscope.comparison.scoring import numbers_behind
+from armscope.comparison.scoring import Possible, numbers_behind
 from armscope.comparison.shared_model import SharedModel
 from armscope.comparison.valued import Valued
 from armscope.core.types import Array

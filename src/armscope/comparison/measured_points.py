@@ -14,7 +14,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Possible
+from armscope.comparison.scoring import Possible
 from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 from armscope.core.words import enumerated

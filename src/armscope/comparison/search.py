@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Possible, Scored
+from armscope.comparison.scoring import Possible, Scored
 from armscope.comparison.shared_model import SharedModel
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 

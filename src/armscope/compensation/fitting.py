@@ -12,8 +12,7 @@ from armscope.compensation.constants import REFUSED
 from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.errormodels.features import FeatureSet, ModelSpec
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import FeatureSet, ModelSpec, fit_least_squares
 from armscope.errormodels.products import ProductFeatures, fit_products
 from armscope.errormodels.regions import Cut, blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
 from armscope.errormodels.swarm_fit import FitProblem, fit_swarms

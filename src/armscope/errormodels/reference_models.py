@@ -8,9 +8,8 @@ from armscope.core.averages import rms
 from armscope.core.grouping import random_parts, same_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
-from armscope.errormodels.features import PAPER_MODELS, ModelSpec
+from armscope.errormodels.features import PAPER_MODELS, ModelSpec, fit_least_squares
 from armscope.errormodels.folds import FOLDS
-from armscope.errormodels.least_squares import fit_least_squares
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 

@@ -15,11 +15,10 @@ from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
-from armscope.paper.outlook import outlook
+from armscope.paper.outlook import outlook, sub_volumes
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.residuals import SPATIAL
 from armscope.paper.scenarios import Scenario
-from armscope.paper.sub_volumes import sub_volumes
 from armscope.paper.virtual import measured
 from armscope.swarm.settings import SwarmSettings
 

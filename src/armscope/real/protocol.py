@@ -23,8 +23,7 @@ from armscope.core.grouping import named_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices, unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
-from armscope.errormodels.features import PAPER_MODELS
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import PAPER_MODELS, fit_least_squares
 from armscope.measurement.channel import ORIENTATIONS
 from armscope.paper.enough_poses import PRINTED_COUNT
 from armscope.paper.printed import IDENTIFICATION

@@ -95,6 +95,11 @@ def write_sections(sections: Sequence[Section[S]], subject: S, templates: str, f
     return written
 
 
+def _saved(drawn: Drawn, folder: Path) -> Markup:
+    write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
+    return Markup(drawn.figure.svg())
+
+
 def figure_named(sections: Sequence[Section[S]], subject: S, name: str) -> Drawing:
     """One figure of a page, drawn as it is asked for.
 

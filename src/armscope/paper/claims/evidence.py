@@ -37,7 +37,7 @@ class Evidence:
     by_least_squares: pd.DataFrame  # the same of the least-squares fits
     fits: Sequence[SwarmFit]  # one per robot and model, by swarm
     random: Sequence[SwarmFit] = ()  # the same by random search with as many evaluations; empty where it was not run
-    sub_volumes: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.sub_volumes`
+    sub_volumes: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.outlook`
     outlook: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.outlook.outlook`
     poses: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.enough_poses`
 

@@ -10,7 +10,7 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
-from armscope.robot.centre_line import centre_lines
+from armscope.robot.kinematics import centre_lines
 
 MOST_POSES = 30  # So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen
 AZIMUTHS = np.radians(np.arange(0, 360, 15))

@@ -9,8 +9,8 @@ import pandas as pd
 
 from armscope.core.config import Paper, stated_numbers
 from armscope.paper.claims.catalogue import CLAIMS
-from armscope.paper.convergence import iterations_needed
 from armscope.paper.decisive_errors import meaning
+from armscope.paper.method import iterations_needed
 from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts
 from armscope.report.html import significant
 from armscope.report.text.audit import READING_WORDS, Contradictions, is_thorough
