@@ -97,7 +97,7 @@ def write_sections(sections: Sequence[Section[S]], subject: S, templates: str, f
 
 def _saved(drawn: Drawn, folder: Path) -> Markup:
     write_text(folder / f"{drawn.name}.svg", drawn.figure.svg(paper=True))
-    return Markup(drawn.figure.svg())
+    return Markup(drawn.figure.svg())  # its words were escaped when they were drawn
 
 
 def figure_named(sections: Sequence[Section[S]], subject: S, name: str) -> Drawing:

@@ -15,11 +15,10 @@ from armscope.core.inputs import Strict
 from armscope.core.types import Array
 from armscope.world.kinds import joints
 from armscope.world.motion.kinds import GRIPPER, LIBRARY, Kind
-from armscope.world.motion.limits import Numbers
 from armscope.world.motion.links import LINKED
 from armscope.world.motion.rough import draw_broken
 from armscope.world.motion.session import GRID_HZ, PathRule, Session
-from armscope.world.motion.stage import Stage, sign
+from armscope.world.motion.stage import Numbers, Stage, sign
 from armscope.world.spec import Details, EffectSpec, Recipe, seeded
 
 

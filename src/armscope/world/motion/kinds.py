@@ -17,18 +17,9 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import joints, links
-from armscope.world.motion.drives import behind_its_drive
-from armscope.world.motion.limits import (
-    Numbers,
-    centre_may_be,
-    holds_its_link,
-    mass_may_be,
-    resists_either_way,
-    resists_when_warm,
-)
 from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
-from armscope.world.motion.stage import PlainArm, Stage, sign
+from armscope.world.motion.stage import Numbers, PlainArm, Stage, sign
 
 UNKNOWN = "unknown"
 Changes = Callable[[Dynamics, Location, Numbers], Dynamics]
@@ -222,7 +213,7 @@ LIBRARY: tuple[Kind, ...] = (
     Kind("asymmetric_friction", joints, _either("viscous_difference"), {"viscous_difference": "N m s/rad"},
          ("viscous_difference",), {},
          pulls=lambda stage, j, x: x["viscous_difference"] * np.abs(stage.session.speed[:, j]),
-         possible=resists_either_way),
+         possible=PlainArm.resists_either_way),
     Kind("stribeck_friction", joints, _more("stribeck", speed=0.15), {"stribeck": "N m", "speed": "rad/s"},
          ("stribeck",), {}, pulls=_stribeck),
     Kind("load_friction", loaded_joints, _more("per_load"), {"per_load": ""}, ("per_load",), {"per_load": 0.3},
@@ -231,7 +222,7 @@ LIBRARY: tuple[Kind, ...] = (
          ("per_kelvin",), {}, needs=("temperature_c",), driver="temperature",
          pulls=lambda stage, j, x: (
              x["per_kelvin"] * (stage.session.temperature - COLD_C) * stage.session.speed[:, j]),
-         possible=resists_when_warm),
+         possible=PlainArm.resists_when_warm),
     Kind("rotor_inertia", joints, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {},
          changes=_added("rotor", "inertia"), driver="acceleration", stated=True),
     Kind("torque_offset", joints, _either("offset"), {"offset": "N m"}, ("offset",), {},
@@ -241,11 +232,11 @@ LIBRARY: tuple[Kind, ...] = (
     Kind("torque_delay", joints, _more("delay"), {"delay": "s"}, ("delay",), {"delay": 0.05}, records=_late,
          driver="time"),
     Kind("joint_compliance", loaded_joints, _more("compliance"), {"compliance": "rad/(N m)"}, ("compliance",), {},
-         pulls=behind_its_drive, driver="load", possible=holds_its_link),
+         pulls=Stage.behind_its_drive, driver="load", possible=PlainArm.holds_its_link),
     Kind("link_mass", links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
-         possible=mass_may_be),
+         possible=PlainArm.mass_may_be),
     Kind("link_first_moment", links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),
-         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=centre_may_be),
+         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=PlainArm.centre_may_be),
     Kind("link_inertia", links, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {}, changes=_thicker,
          driver="acceleration"),
     Kind("payload_error", lambda _: ["payload"], _more("mass"), {"mass": "kg"}, ("mass",), {}, changes=_carries,

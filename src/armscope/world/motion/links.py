@@ -13,12 +13,10 @@ from scipy.signal import lfilter
 from armscope.core.types import Array, Indices
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import joints
-from armscope.world.motion.drives import behind_its_drive, wound_up
 from armscope.world.motion.kinds import Kind, loaded_joints
-from armscope.world.motion.limits import Numbers, holds_its_link
 from armscope.world.motion.recording import ENCODER_STEPS
 from armscope.world.motion.session import GRID_HZ, Session
-from armscope.world.motion.stage import Stage
+from armscope.world.motion.stage import Numbers, PlainArm, Stage
 from armscope.world.rivals import Rival
 
 NOISE_RAD = 2e-5  # Of link less motor, as encoders of some arc seconds have it
@@ -75,8 +73,8 @@ def _some_wave(rng: np.random.Generator, _: RobotDescription) -> dict[str, float
 
 LINKED: tuple[Kind, ...] = (
     Kind("joint_elasticity", loaded_joints, lambda rng, _: {"compliance": 1.0}, {"compliance": "rad/(N m)"},
-         ("compliance",), {}, pulls=behind_its_drive, lies=lambda stage, j, x: wound_up(stage, j, x)[0][:, j],
-         driver="load", possible=holds_its_link),
+         ("compliance",), {}, pulls=Stage.behind_its_drive, lies=lambda stage, j, x: stage.wound_up(j, x)[0][:, j],
+         driver="load", possible=PlainArm.holds_its_link),
     Kind("joint_play", loaded_joints, lambda rng, _: {"half": 1.0}, {"half": "rad"}, ("half",), {"half": 0.01},
          lies=_at_either_end, driver="direction of the load"),
     Kind("gear_ratio", joints, lambda rng, _: {"share": float(rng.choice([-1.0, 1.0]))}, {"share": ""}, ("share",),

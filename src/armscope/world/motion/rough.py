@@ -18,10 +18,9 @@ from armscope.world.kinds import joints, links
 from armscope.world.layout import Geometry
 from armscope.world.motion.constants import ROUGH_MOTION as ROUGH
 from armscope.world.motion.kinds import LIBRARY, UNKNOWN, Concealed, Kind
-from armscope.world.motion.limits import Numbers
 from armscope.world.motion.mechanism import Dynamics
 from armscope.world.motion.session import GRID_HZ, WARMING_C, Session
-from armscope.world.motion.stage import PlainArm, Stage, stage_of
+from armscope.world.motion.stage import Numbers, PlainArm, Stage, stage_of
 from armscope.world.motion.virtual_arm import VirtualArm
 from armscope.world.rough import between
 

@@ -8,17 +8,8 @@ import numpy as np
 import pytest
 
 from armscope.world.motion.kinds import LIBRARY
-from armscope.world.motion.limits import (
-    SLOWEST_SWING_HZ,
-    WRONG_CENTRE,
-    WRONG_MASS,
-    centre_may_be,
-    holds_its_link,
-    mass_may_be,
-    resists_either_way,
-    resists_when_warm,
-)
 from armscope.world.motion.mechanism import MovingArm
+from armscope.world.motion.stage import SLOWEST_SWING_HZ, WRONG_CENTRE, WRONG_MASS, PlainArm
 
 from .arms import arm
 
@@ -36,11 +27,11 @@ def inertia() -> float:
 
 
 LIMITS = {
-    holds_its_link: {"compliance": 1 / (inertia() * (2 * np.pi * SLOWEST_SWING_HZ) ** 2)},
-    mass_may_be: {"mass": -WRONG_MASS * DYNAMICS.mass[1]},
-    centre_may_be: {"mx": WRONG_CENTRE * LONGEST * DYNAMICS.mass[1], "my": 0.0, "mz": 0.0},
-    resists_when_warm: {"per_kelvin": -DYNAMICS.viscous[1] / 25.0},
-    resists_either_way: {"viscous_difference": -DYNAMICS.viscous[1]},
+    PlainArm.holds_its_link: {"compliance": 1 / (inertia() * (2 * np.pi * SLOWEST_SWING_HZ) ** 2)},
+    PlainArm.mass_may_be: {"mass": -WRONG_MASS * DYNAMICS.mass[1]},
+    PlainArm.centre_may_be: {"mx": WRONG_CENTRE * LONGEST * DYNAMICS.mass[1], "my": 0.0, "mz": 0.0},
+    PlainArm.resists_when_warm: {"per_kelvin": -DYNAMICS.viscous[1] / 25.0},
+    PlainArm.resists_either_way: {"viscous_difference": -DYNAMICS.viscous[1]},
 }
 
 
