@@ -16,7 +16,6 @@ ELSEWHERE = {"campaign", "fuzz", "golden", "house"}
 STILL_FROM_ELSEWHERE = [
     "__main__.py",
     "calibration/plausibility.py",
-    "calibration/state.py",
     "compensation/file_contents.py",
     "compensation/output.py",
     "compensation/result.py",

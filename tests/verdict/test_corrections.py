@@ -13,12 +13,17 @@ import yaml
 from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import row_terms
+from armscope.physics.registry import effect_named
 from armscope.report.pages.diagnosis import write_work_order
 from armscope.report.sectioning import Subject
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
+from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import (
+    ALL_OF_THEM,
+    NOT_SURE,
+    bars_set_right,
     corrected_origins,
     corrected_rows,
     corrected_table,
@@ -28,6 +33,7 @@ from armscope.verdict.corrections import (
 )
 from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.effects import FoundEffect, Parameter
+from armscope.verdict.tasks import task_of
 from tests.report import verdicts
 from tests.report.verdicts import found
 from tests.robot.test_controllers import tool_of, ur5e
@@ -231,3 +237,36 @@ def test_who_loads_the_file_is_told_not_to_reset_zeros_as_well(tmp_path: Path) -
     for name in ("ur_kinematics.yaml", "work-order.html"):
         assert "never as well" in (tmp_path / name).read_text()
     assert set(yaml.safe_load((tmp_path / "ur_kinematics.yaml").read_text())) == {"kinematics"}
+
+
+ROCKER = Parameter("rocker", "m/m", -2.87e-4, 3e-6)
+
+
+def test_both_bars_that_are_off_are_changed_together_each_by_minus_its_error() -> None:
+    """A rod adjusted alone made an arm worse, 0.19 to 0.20 mm, where 0.04 was promised."""
+    told = bars_set_right([Parameter("rod", "m/m", 5.2e-5, 2e-6), ROCKER, Parameter("crank_angle", "deg", 90, 0)])
+    assert told.startswith("make the rocker longer by 287 ppm (± 6) of the rocker's length and make the rod shorter by")
+    assert told.endswith(ALL_OF_THEM)
+    lengths = bars_set_right([Parameter("rod", "mm", 0.2, 0.01), Parameter("rocker", "mm", -0.1, 0.01)])
+    assert "make the rod shorter by 0.200 mm (± 0.020)" in lengths
+
+
+def test_a_bar_within_its_interval_is_left_alone() -> None:
+    one = bars_set_right([Parameter("rod", "m/m", 2.4e-6, 2.3e-6), ROCKER])
+    assert "leave the rod as it is" in one
+    assert ALL_OF_THEM not in one
+    assert "ppm" not in one.partition(";")[2]
+    assert bars_set_right([Parameter("rod", "mm", 0.1, 0.2), Parameter("rocker", "mm", 0.1, 0.2)]) == NOT_SURE
+    assert bars_set_right([]) == "–"
+
+
+def test_the_work_order_tells_both_bars() -> None:
+    effect = verdicts.found("parallelogram_geometry", "parallelogram", Parameter("rod", "m/m", 5.2e-5, 2e-6), ROCKER)
+    case = verdicts.case("parallelogram-120kg", (effect,))
+    (cause,) = contributions(case.verdict).causes
+    task = task_of(case.verdict.model.scene(case.recordings), cause, effect)
+    assert "make the rocker longer by 287 ppm" in task.instruction
+    assert "make the rod shorter by 52 ppm" in task.instruction
+    definition = effect_named("parallelogram_geometry")
+    assert definition
+    assert "each bar that is off" in definition.cure.words

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.calibration.constants import FITTING
+from armscope.calibration.geometry import Posed, State
 from armscope.calibration.model import SetUp
-from armscope.calibration.state import Posed, State
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames

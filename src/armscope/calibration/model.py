@@ -9,8 +9,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
-from armscope.calibration.state import Posed, State
+from armscope.calibration.geometry import (
+    Constant,
+    Posed,
+    State,
+    constant_columns,
+    constants_of,
+    corrected,
+    turn_columns,
+)
 from armscope.core.grouping import by_label
 from armscope.core.types import Array, Indices
 from armscope.fitting.placement import frame_columns

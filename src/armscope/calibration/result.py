@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from armscope.calibration.confounding import Confounded
 from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.fit import placed
-from armscope.calibration.geometry import nominal_values
+from armscope.calibration.geometry import State, nominal_values
 from armscope.calibration.held_out import foretold, parts_to_test
 from armscope.calibration.model import Level, SetUp
-from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
 from armscope.core.told import InWords
 from armscope.core.types import Array

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from armscope.calibration.constants import FITTING, IDENTIFYING, SIZES
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
+from armscope.calibration.geometry import State
 from armscope.calibration.model import Level, SetUp
-from armscope.calibration.state import State
 from armscope.core.types import Array, Indices
 from armscope.design.independence import independent_columns
 from armscope.fitting.gauge import FrameColumns, gauge

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.calibration.geometry import State
 from armscope.calibration.model import set_up
-from armscope.calibration.state import State
 from armscope.check.constants import WRONG_GRAVITY
 from armscope.check.plain_errors import drive_columns
 from armscope.check.suspicion import GRAVITY, Suspicion

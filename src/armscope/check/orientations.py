@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp
-from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import ORIENTED, Suspicion
 from armscope.core.types import Array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.calibration.state import State
+from armscope.calibration.geometry import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.recordings import Recordings

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.calibration.geometry import Posed, State
 from armscope.calibration.model import set_up
-from armscope.calibration.state import Posed, State
 from armscope.check.plain_constants import PLAIN
 from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from armscope.calibration.fit import robust_least_squares
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp, set_up
-from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.core.grouping import same_configuration

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.state import State
+from armscope.calibration.geometry import State
 from armscope.check.plain_constants import SETTLING
 from armscope.check.plain_errors import FittedTurns, PlainErrors
 from armscope.check.suspicion import SETTLED, Suspicion

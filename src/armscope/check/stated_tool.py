@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from armscope.calibration.state import State
+from armscope.calibration.geometry import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.robot import Arm

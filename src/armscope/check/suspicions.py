@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from armscope.calibration.fit import placed, robust_least_squares
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp, set_up
-from armscope.calibration.state import State
 from armscope.check.approach import leading_joints
 from armscope.check.common_mistakes import MIRRORED, Trial, trials
 from armscope.check.constants import TRIALS

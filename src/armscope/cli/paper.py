@@ -190,7 +190,7 @@ def outlook_(
 def reading_(poses: Poses, output: Output) -> None:
     """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
     from armscope.core.files import read_table, write_table
-    from armscope.paper.reading import reading
+    from armscope.paper.printed import reading
 
     table = read_table(poses, ["trajectory", "x_mm", "y_mm", "z_mm"], "the table poses.csv of a study")
     identification = table[table["trajectory"] == "identification"]

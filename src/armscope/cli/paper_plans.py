@@ -21,7 +21,7 @@ from armscope.paper.scenarios import Scenario, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting
 from armscope.paper.virtual import PlannedPaths, PlannedPoses, Sizes, StudyPlan
 from armscope.robot import Arm, load_arm
-from armscope.world.tracker import Tracker as VirtualTracker
+from armscope.world.of_the_paper import Tracker as VirtualTracker
 
 
 def plan_of(settings: MeasureSettings, arm: Arm, robots: int | None = None) -> StudyPlan:

@@ -211,7 +211,7 @@ def report(
     import pandas as pd
 
     from armscope.report.figures.real_proof import draw_all
-    from armscope.report.pages.real_proof import write_real_proof_page
+    from armscope.report.pages.real_concealed import write_real_proof_page
     from armscope.report.style import save_figure
 
     named = json.loads(titles)

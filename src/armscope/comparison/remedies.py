@@ -16,7 +16,7 @@ from armscope.core.words import enumerated, size_of
 from armscope.physics.effect import Effect
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named
-from armscope.verdict.bars import bars_set_right
+from armscope.verdict.corrections import bars_set_right
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.tasks import with_numbers

@@ -1,4 +1,4 @@
-"""How surely changes are ones, each alone beside what is fitted anyway."""
+"""How rows scatter, and how surely changes are ones, each alone beside what is fitted anyway."""
 
 from __future__ import annotations
 

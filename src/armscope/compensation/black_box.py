@@ -1,4 +1,4 @@
-"""A fitted black-box model ready to predict: the nominal arm, its tool's error, where that was identified."""
+"""A fitted black-box model, ready to predict: nominal arm, its tool's error, where that was identified; its file."""
 
 from __future__ import annotations
 

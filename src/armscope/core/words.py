@@ -1,4 +1,4 @@
-"""Words in a row and in the middle of a sentence."""
+"""Words in a row, numbers and units as people in the field say them, and tables in Markdown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""fleet.csv: which arms there are, of which type, and the recordings of each."""
+"""fleet.csv: which arms there are, of which type, the recordings of each, and a diagnosis of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a kind of reading must say of itself, so that nothing but its own file needs to know it."""
+"""What a kind of reading must say of itself, so that nothing else needs to know it; positions and orientations."""
 
 from __future__ import annotations
 
@@ -254,3 +254,11 @@ class OrientationChannel(Channel):
 
 
 ORIENTATIONS = OrientationChannel()
+
+
+CHANNELS: tuple[Channel, ...] = (POSITIONS, ORIENTATIONS)  # The first is the reference: it is always measured
+
+
+def supported(recordings: Recordings, channels: Sequence[Channel] = CHANNELS) -> tuple[Channel, ...]:
+    """Those of some channels that a table holds readings of."""
+    return tuple(c for n, c in enumerate(channels) if n == 0 or c.measured(recordings).any())

@@ -16,9 +16,8 @@ from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose
 from armscope.paper.printed import IDENTIFICATION, TEST_TRAJECTORIES
 from armscope.robot import Arm, chain, forward_kinematics
 from armscope.robot.inverse import follow_path
+from armscope.world.of_the_paper import Tracker, archimedes_spiral, rectangle
 from armscope.world.tolerances import GeometricErrors, geometric_errors
-from armscope.world.tracker import Tracker
-from armscope.world.trajectories import archimedes_spiral, rectangle
 
 
 @dataclass(frozen=True)

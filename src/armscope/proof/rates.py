@@ -20,7 +20,7 @@ from armscope.proof.definitions import (
     THRESHOLD_AIM,
 )
 from armscope.proof.oracle import Threshold, threshold
-from armscope.proof.rough_rates import rough_table
+from armscope.proof.rough import rough_table
 from armscope.proof.scoring import Cases
 from armscope.verdict.effects import UNKNOWN
 

@@ -33,7 +33,7 @@ from armscope.fitting.model_fit import ModelFit
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.measurement.registry import supported
+from armscope.measurement.channel import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric, tilting
 from armscope.physics.effect import Part, Placed

@@ -9,10 +9,10 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration.fit import least_squares, placed
+from armscope.calibration.geometry import State
 from armscope.calibration.held_out import held_out_levels
 from armscope.calibration.model import LEVELS, Level, SetUp, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
 from armscope.core.types import unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose

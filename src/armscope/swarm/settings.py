@@ -1,4 +1,4 @@
-"""What a user may choose about a swarm, checked once."""
+"""What a user may choose about a swarm, checked once, and whom its particles follow."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,16 +11,18 @@ import pandas as pd
 
 from armscope.core.rotations import turned_by
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.physics.linkage_words import BARS, OF_WHAT
 from armscope.physics.zero_shift import ZERO_SHIFT
 from armscope.robot import Arm, controllers
 from armscope.robot.arm import build_arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.constants import ORDER
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import INTERVAL, FoundEffect
-from armscope.verdict.entries import entry_decimals
+from armscope.verdict.effects import INTERVAL, FoundEffect, Parameter
+from armscope.verdict.entries import entry_decimals, length
 from armscope.verdict.untold import beyond_arms, untold
 
 NUMBERS = {
@@ -223,3 +225,29 @@ def corrected_ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
     ]
     dh = arm.description.dh.model_copy(update={"joints": joints})
     return controllers.ur_kinematics(build_arm(arm.description.model_copy(update={"dh": dh})))
+
+
+ALL_OF_THEM = "both before anything is measured: one without the other can make it worse"
+NOT_SURE = "no bar is surely off (each interval holds zero), so change none before it was measured"
+PPM = 1e6
+
+
+def bars_set_right(parameters: Sequence[Parameter]) -> str:
+    """How each bar that is off is changed; one whose interval holds zero is left as it is. ``parameters``: of the
+    parallelogram: the errors of its bars, lengths or shares of the rocker's."""
+    bars = sorted((p for p in parameters if p.name in BARS), key=lambda p: BARS.index(p.name))
+    if not bars:
+        return "–"
+    off = [p for p in bars if abs(p.value) > INTERVAL * p.stderr]
+    if not off:
+        return NOT_SURE
+    changes = [f"make the {p.name} {'shorter' if p.value > 0 else 'longer'} by {_by_how_much(p)}" for p in off]
+    kept = [f"leave the {p.name} as it is (its error may be none)" for p in bars if p not in off]
+    return "; ".join([enumerated(changes), *([ALL_OF_THEM] if len(off) > 1 else []), *kept])
+
+
+def _by_how_much(bar: Parameter) -> str:
+    if bar.unit == "mm":
+        return length(abs(bar.value), bar.stderr).removeprefix("+")
+    half = f" (± {PPM * INTERVAL * bar.stderr:.0f})" if bar.stderr > 0 else ""
+    return f"{PPM * abs(bar.value):.0f} ppm{half} {OF_WHAT}"

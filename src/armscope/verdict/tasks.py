@@ -17,10 +17,9 @@ from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
-from armscope.verdict.bars import bars_set_right
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
-from armscope.verdict.corrections import corrected_origin, place_and_angles
+from armscope.verdict.corrections import bars_set_right, corrected_origin, place_and_angles
 from armscope.verdict.doubts import OPEN, Doubt, alike_in_words, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length

@@ -24,8 +24,7 @@ from armscope.verdict.entered_together import (
     moved_by,
     pays_together,
 )
-from armscope.verdict.family_cures import cure_of_family, warms
-from armscope.verdict.growth import growth_in_words
+from armscope.verdict.family_cures import cure_of_family, growth_in_words, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
 from armscope.verdict.scatter_steps import beside_scatter, finding_out

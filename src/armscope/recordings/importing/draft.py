@@ -14,19 +14,21 @@ import yaml
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.importing.constants import DRAFT, LIMITS
-from armscope.recordings.importing.draft_motors import (
+from armscope.recordings.importing.draft_columns import (
     BESIDE,
+    FILL_IN,
     JOINT,
+    filled_in,
     in_a_row,
     largest_of,
     motor_columns,
     numbered_columns,
+    points_of,
+    unit_of,
     ur_joints,
     words_of,
 )
 from armscope.recordings.importing.draft_orientations import orientation_lines
-from armscope.recordings.importing.draft_points import points_of
-from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
 from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping

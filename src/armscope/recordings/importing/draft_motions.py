@@ -12,9 +12,16 @@ import yaml
 from armscope.core.inputs import validate
 from armscope.recordings.importing.constants import DRAFT
 from armscope.recordings.importing.draft import HEAD, RUNS, SCALARS, draft_mapping, format_lines
-from armscope.recordings.importing.draft_motors import BESIDE, in_a_row, motor_columns, numbered_columns
-from armscope.recordings.importing.draft_points import points_of
-from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
+from armscope.recordings.importing.draft_columns import (
+    BESIDE,
+    FILL_IN,
+    filled_in,
+    in_a_row,
+    motor_columns,
+    numbered_columns,
+    points_of,
+    unit_of,
+)
 from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.motions import MotionMapping
 from armscope.recordings.importing.stated_units import MOTION_ANGLES, SPEED_UNITS, TORQUE_UNITS

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.draft_units import unit_of
+from armscope.recordings.importing.draft_columns import unit_of
 from armscope.recordings.importing.first_table import ForeignTable, column_list
 from armscope.recordings.importing.stated_units import ANGLE_UNITS
 

@@ -1,17 +1,66 @@
-"""Which columns of a foreign table look like motor angles: numbered, named by joint or by a maker's letters."""
+"""Which columns of a foreign table look like motor angles and measured points, and in which units they stand."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import numpy as np
 
+from armscope.core.inputs import InputError
 from armscope.core.types import Array
 from armscope.recordings.constants import POSSIBLE
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.draft_points import COMMANDED, MEASURED
-from armscope.recordings.importing.first_table import ForeignTable
-from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS
+from armscope.recordings.importing.first_table import ForeignTable, below_name, printable
+from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, OTHER_UNITS, stated_unit, unknown_unit
+
+COMMANDED = ("target", "cmd", "command", "commanded", "set", "desired", "nominal", "ref", "soll", "指令", "理论")
+MEASURED = ("measured", "meas", "actual", "act", "ist", "tracker", "laser", "leica", "faro", "mcs", "测量", "实测")
+
+AXIS = re.compile(r"(?<![a-z])(?:pos|coord|p)?([xyz])(?![a-z])")
+
+
+def points_of(table: ForeignTable, taken: Sequence[int]) -> list[list[int]]:
+    """The three columns of each measured point, those of one name with numbers 1, 2, ... in their order. Returns
+    Columns along x, y, z by reflector; nothing where no columns look like a point."""
+    if not table.header:
+        return [list(range(len(taken), len(taken) + 3))] if taken else []
+    found: dict[str, dict[str, int]] = {}
+    for column, name in enumerate(table.names):
+        if column in taken:
+            continue
+        apart = re.sub(r"(?<=[a-z])(?=[XYZ](?![A-Za-z]))", " ", name)  # PosX
+        for match in AXIS.finditer(apart.lower().replace("_", " ")):
+            rest = (apart[: match.start(1)] + "?" + apart[match.end(1) :]).lower()
+            found.setdefault(rest, {})[match[1]] = column
+    whole = {rest: [axes[a] for a in "xyz"] for rest, axes in found.items() if set(axes) == set("xyz")}
+    whole = {rest: columns for rest, columns in whole.items() if not _NO_POINT.search(rest)}
+    if not whole:
+        return []
+    best = max(whole, key=lambda rest: (_measured(rest), -whole[rest][0]))
+    alike = {_number(rest): columns for rest, columns in whole.items() if _bare(rest) == _bare(best)}
+    numbered = [alike.get(number) for number in range(1, len(alike) + 1)]
+    several = [columns for columns in numbered if columns is not None]
+    return several if len(several) == len(alike) > 1 else [whole[best]]
+
+
+_NO_POINT = re.compile(r"r\?|rot|orient|q\?|quat|force|f\?|sigma")
+"""What stands beside an axis' letter where a column is no length."""
+
+
+def _measured(rest: str) -> int:
+    """Whether a name says that it is measured (1) or commanded (-1)."""
+    return any(word in rest for word in MEASURED) - any(word in rest for word in COMMANDED)
+
+
+def _bare(rest: str) -> str:
+    return re.sub(r"\d+", "#", rest)
+
+
+def _number(rest: str) -> int:
+    numbers = re.findall(r"\d+", rest)
+    return int(numbers[0]) if len(numbers) == 1 else -1
+
 
 JOINT = re.compile(r"(?P<word>.*?)[\s_.\[(\-]*(?P<number>\d{1,2})(?!\d)[\])]?(?P<rest>\D*)")
 """A column of one motor: words, its number, and what may follow: a unit, words."""
@@ -121,3 +170,43 @@ def _leading(table: ForeignTable) -> list[int]:
     spans = [largest_of(table.values[:, [column]]) for column in range(table.values.shape[1])]
     count = len(spans) - 3
     return list(range(count)) if count >= DRAFT.fewest_motors and max(spans[:count]) <= POSSIBLE.angle_deg else []
+
+
+FILL_IN = "FILL_IN"  # What no mapping takes for a unit: `armscope import` asks for one
+
+
+def unit_of(table: ForeignTable, columns: Sequence[int], units: dict[str, str]) -> tuple[str | None, str]:
+    """The unit that a table states for the columns of one quantity, and how it is known.
+
+    Args:
+        table: the table.
+        columns: those of the quantity.
+        units: what mappings call each word for one.
+
+    Returns:
+        The unit and the words of a comment; `FILL_IN` where the table states one that is not known, None and no word
+        where it states none.
+
+    Raises:
+        InputError: the columns state several units.
+    """
+    cells = [(table.names[column] if table.header else "", below_name(table, column)) for column in columns]
+    if unknown := next((word for cell in cells if (word := unknown_unit(*cell, units))), ""):
+        known = ", ".join(dict.fromkeys(units.values()))
+        return FILL_IN, f"to fill in: the table says {printable(unknown)!r}, which is none of {known}"
+    stated = list(dict.fromkeys(unit for cell in cells if (unit := stated_unit(*cell, units))))
+    if len(stated) > 1:
+        names = ", ".join(table.names[column] for column in columns)
+        rule = f"the columns of one quantity have one unit, these have {' and '.join(stated)}"
+        raise InputError(table.file, f"line {table.skip + 1}", names, rule, "Convert the columns of one of them.")
+    return (stated[0], "stated by the table") if stated else (None, "")
+
+
+def filled_in(text: str) -> str:
+    """A draft with any known unit where one is left open, to see whether all else of it holds."""
+    kinds = {"position": "mm", "reflectors": "mm", "speed": "rad/s", "speeds": "rad/s", "time": "s"}
+    lines = []
+    for line in text.split("\n"):
+        unit = kinds.get(line.strip().partition(":")[0], "rad")
+        lines.append(line.replace(f"unit: {FILL_IN}", f"unit: {unit}").replace(f"scale: {FILL_IN}", "scale: 1"))
+    return "\n".join(lines)
