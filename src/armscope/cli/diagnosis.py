@@ -125,7 +125,7 @@ def diagnose(
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.verdict.promise import promised, rows_it_rests_on
+    from armscope.verdict.diagnosis import promised, rows_it_rests_on
 
     writable(output, DOMAIN)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation, floor_mm)

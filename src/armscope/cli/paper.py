@@ -141,7 +141,7 @@ def table2_(
 ) -> None:
     """Table 2: the first robot's errors that are left over, beside the printed ones and those of its ensemble."""
     from armscope.core.files import write_table
-    from armscope.paper.table2 import table2
+    from armscope.paper.beside_printed import table2
 
     table = table2(read_residuals(residuals))
     of_printed = [name for name in table.columns if name == "printed" or name.endswith("_ratio")]
@@ -152,7 +152,7 @@ def table2_(
 def coefficients(fits: Fits, output: Output) -> None:
     """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
     from armscope.core.files import write_table
-    from armscope.paper.table2 import coefficient_table
+    from armscope.paper.beside_printed import coefficient_table
 
     write_table(output, coefficient_table(read_fits(fits)), digits=6)
 
@@ -161,7 +161,7 @@ def coefficients(fits: Fits, output: Output) -> None:
 def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     """Hold the robots against printed numbers that anchoring did not use."""
     from armscope.core.files import write_table
-    from armscope.paper.cross_check import cross_check
+    from armscope.paper.beside_printed import cross_check
 
     write_table(output, cross_check(read_residuals(residuals), read_fits(*fits)), digits=5)
 

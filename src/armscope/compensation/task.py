@@ -13,8 +13,7 @@ from armscope.compensation.constants import COMMANDS
 from armscope.compensation.domain import Domain
 from armscope.compensation.forward import Forward, NominalArm
 from armscope.compensation.newton import Solution, Wanted, correct, row_pieces, solve_commands
-from armscope.compensation.nominal_path import nominal_branch
-from armscope.compensation.path import Frame, WantedPath, unit_doubt
+from armscope.compensation.path import Frame, WantedPath, nominal_branch, unit_doubt
 from armscope.compensation.reachable import Reachable, reachable_by
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError

@@ -18,9 +18,8 @@ from armscope.report.pages.diagnosis import write_report
 from armscope.report.sectioning import Subject, figure_named
 from armscope.report.sections.registry import SECTIONS
 from armscope.report.svg import Drawing
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised, rows_it_rests_on
 from armscope.verdict.files import write_verdict
-from armscope.verdict.promise import promised, rows_it_rests_on
 from armscope.verdict.wording import millimetres, percent
 
 

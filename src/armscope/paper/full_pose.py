@@ -19,7 +19,7 @@ from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.path import as_path
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
-from armscope.errormodels.extended import ModelSet
+from armscope.errormodels.fitted import ModelSet
 from armscope.paper.closed_loop import DIAGNOSED, diagnosed_candidate
 from armscope.paper.identification_poses import candidate_poses, choose_identification_poses, joint_ranges
 from armscope.paper.measurements import Measurements

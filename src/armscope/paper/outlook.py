@@ -9,8 +9,8 @@ import pandas as pd
 
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array, Indices
-from armscope.errormodels.extended import with_products, with_regions
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI, POLYNOMIAL_4_AI, SDP_AI, SDP_CI, ModelSpec
+from armscope.errormodels.fitted import with_products, with_regions
 from armscope.errormodels.products import ProductFeatures, candidate_terms
 from armscope.errormodels.regions import chosen_regions, compare_regions
 from armscope.paper.measurements import Measurements

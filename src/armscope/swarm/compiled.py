@@ -14,7 +14,7 @@ import numba
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.swarm.least_squares_objective import LANES, Outcome, Pack, Problems, Words
+from armscope.swarm.kernel_data import LANES, Outcome, Pack, Problems, Words
 from armscope.swarm.streams import WEIGHT_UNIT
 
 ROW_BLOCK = 4  # rows of the triangular product that are computed in one loop

@@ -8,7 +8,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.swarm.compiled import DIVERGED, ONE, ROW_BLOCK, THRESHOLD, run_packs
-from armscope.swarm.least_squares_objective import LANES, LeastSquares, Outcome, Pack, Problems
+from armscope.swarm.kernel_data import LANES, Outcome, Pack, Problems
+from armscope.swarm.least_squares_objective import LeastSquares
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
 from armscope.swarm.streams import set_sfc64_states, sfc64_states

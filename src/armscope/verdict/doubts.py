@@ -10,7 +10,7 @@ from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
 from armscope.verdict.family_cures import CONFIRM_FIRST
 from armscope.verdict.sentences import exact_phrase
-from armscope.verdict.unsettled import kind_and_place
+from armscope.verdict.told_causes import kind_and_place
 from armscope.verdict.wording import effect_in_words, plain
 
 OPEN = "to be settled"  # What is changed about a cause that is not settled: nothing yet

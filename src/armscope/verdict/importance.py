@@ -26,10 +26,9 @@ from armscope.physics.backgrounds import GEOMETRIC
 from armscope.verdict.calibrated import mended_by_calibration, once_calibrated, share_beside_its_like, stands_out
 from armscope.verdict.constants import REPAIRS, WORDS
 from armscope.verdict.contributions import Contributions, ground_of, parts_of
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import cure_of_family, growth_in_words
-from armscope.verdict.promise import promised
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.sentences import cause_in_words, headline
 

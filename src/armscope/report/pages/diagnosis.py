@@ -32,14 +32,13 @@ from armscope.verdict.corrections import (
     wrongly_stated,
     zero_offsets,
 )
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
-from armscope.verdict.promise import promised
 from armscope.verdict.remainder import asked_of_noise
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, TOOL_EXCHANGED, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable

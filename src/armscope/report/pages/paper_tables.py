@@ -35,7 +35,7 @@ class Row:
 
 def table2_blocks(table: pd.DataFrame, marks: Contradictions) -> list[tuple[str, list[Row]]]:
     """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and
-    axis. ``table``: as `armscope.paper.table2` returns it."""
+    axis. ``table``: as `armscope.paper.beside_printed` returns it."""
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])
     drawn = table["rss_ensemble_median"].notna().any()

@@ -1,12 +1,14 @@
-"""Which arm of the library explains a table best: for recordings that the stated arm does not explain."""
+"""What is stated of an arm and its points contradict: the tool's numbers, where a payload sits, which arm it is."""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
 
 from armscope.calibration.fit import placed
+from armscope.calibration.geometry import State
 from armscope.calibration.model import set_up
 from armscope.check.constants import OTHER_ARMS, TRIALS
 from armscope.check.suspicion import Suspicion
@@ -16,6 +18,56 @@ from armscope.recordings import Recordings
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.library import nominal_description, nominal_names
 from armscope.verdict.schema import ANOTHER_MODEL
+
+
+def tool_stated_otherwise(arm: Arm, state: State) -> list[Suspicion]:
+    """Whether the one measured tool point is where `tool_mm` would be with its numbers exchanged or turned round.
+
+    Points alone find the tool without it. Commands in the base frame, loads and drawings start from what is stated.
+
+    Returns:
+        A hint with the numbers as the points have them, or nothing.
+    """
+    stated = np.array(arm.description.tool_mm)
+    if not stated.any() or len(state.tools) != 1:
+        return []
+    found = 1e3 * state.tools[0]
+    readings = np.array(
+        [
+            stated[list(order)] * signs
+            for order in itertools.permutations(range(3))
+            for signs in itertools.product((1, -1), repeat=3)
+        ]
+    )
+    off = np.linalg.norm(readings - found, axis=1)
+    if off.min() > TRIALS.tool_read_otherwise * np.linalg.norm(stated - found):
+        return []
+    at, as_stated, otherwise = (", ".join(f"{each + 0.0:.4g}" for each in numbers) for numbers in
+                                (found.round(1), stated, readings[off.argmin()]))  # fmt: skip
+    statement = f"the points sit at [{at}] mm in the last frame, where `tool_mm` says [{as_stated}]"
+    return [Suspicion("hint", statement, f"Are its numbers in another order, or of other signs: [{otherwise}]?")]
+
+
+def payload_at_the_flange(arm: Arm, recordings: Recordings, state: State) -> list[Suspicion]:
+    """Payloads whose place nobody stated, where the points show a tool: its lever is in every compliance.
+
+    Args:
+        arm: the nominal arm.
+        recordings: the table.
+        state: base and tool that were fitted.
+
+    Returns:
+        A hint with the place, or nothing.
+    """
+    if recordings.payload is None or not np.nan_to_num(recordings.payload).max() > 0 or any(arm.description.tool_mm):
+        return []
+    at = 1e3 * state.tools.mean(axis=0)
+    if np.linalg.norm(at) < TRIALS.lever_mm:
+        return []
+    told = ", ".join(f"{each:.0f}" for each in at)
+    statement = "payload_kg is recorded, no tool_mm stated: each payload counts as sitting in the last frame's origin"
+    cure = f"State `tool_mm` in the robot's file, if it sits where the points are measured: [{told}]."
+    return [Suspicion("hint", statement, cure)]
 
 
 @dataclass(frozen=True)

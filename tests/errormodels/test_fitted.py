@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from armscope.errormodels.extended import with_products, with_regions
 from armscope.errormodels.features import FDP_CI, ModelSpec, fit_least_squares
+from armscope.errormodels.fitted import with_products, with_regions
 
 RNG = np.random.default_rng(3)
 POINTS, ELSEWHERE = RNG.uniform(-1000, 1000, (85, 3)), RNG.uniform(-1000, 1000, (40, 3))

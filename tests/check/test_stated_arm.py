@@ -1,17 +1,51 @@
-"""The arm of the library that made the points is the one that explains them best."""
+"""A stated tool whose numbers stand in another order is asked about; one that is somewhere else is not."""
+
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.check.nominal_arms import nominal_fits
+from armscope.check.report import check
+from armscope.check.stated_arm import nominal_fits
 from armscope.check.suspicions import against_arm
 from armscope.recordings import as_recordings
 from armscope.robot import chain
 from armscope.robot.arm import build_arm
 from armscope.robot.library import nominal_description
 from armscope.verdict.schema import ANOTHER_MODEL
+from tests.check.conftest import TOOL
+
+X, Y, Z = (1e3 * each for each in TOOL[""])
+
+
+def asked(arm, sound, tool_mm):
+    stated = build_arm(arm.description.model_copy(update={"tool_mm": tuple(tool_mm)}))
+    return [each.text() for each in check(sound, stated).suspicions if "`tool_mm`" in each.text()]
+
+
+@pytest.mark.parametrize("tool_mm", [(Z, Y, X), (Y, X, Z), (-X, Y, Z), (X, Y, -Z)])
+def test_another_order_or_sign_is_asked_about_with_the_numbers_as_the_points_have_them(arm, sound, tool_mm):
+    (hint,) = asked(arm, sound, tool_mm)
+    told = [float(each) for each in hint.rpartition("[")[2].partition("]")[0].split(",")]
+    np.testing.assert_allclose(told, (X, Y, Z), atol=1e-3)
+
+
+@pytest.mark.parametrize("tool_mm", [(X, Y, Z), (X + 40, Y, Z), (X, Y, Z + 75), (0, 0, 0)])
+def test_a_tool_that_is_right_or_another_is_not(arm, sound, tool_mm):
+    assert not asked(arm, sound, tool_mm)
+
+
+def test_a_payload_whose_place_nobody_states_is_told_with_the_place_that_the_points_show(arm, sound):
+    loaded = replace(sound, payload=np.where(np.arange(len(sound)) % 2, 5.0, 0.0))
+    (hint,) = [each.text() for each in check(loaded, arm).suspicions if "payload" in each.text()]
+    told = [float(each) for each in hint.partition("[")[2].partition("]")[0].split(",")]
+    np.testing.assert_allclose(told, 1e3 * np.array(TOOL[""]), atol=3)
+    stated = build_arm(arm.description.model_copy(update={"tool_mm": tuple(1e3 * np.array(TOOL[""]))}))
+    assert not [each for each in check(loaded, stated).suspicions if "payload" in each.text()]
+    nothing_carried = check(replace(loaded, payload=0 * loaded.payload), arm).suspicions
+    assert not [each for each in nothing_carried if "tool_mm" in each.text()]
 
 
 def table(name, noise_mm=0.05, seed=0, rows=60):

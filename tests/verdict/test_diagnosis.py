@@ -9,8 +9,8 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.verdict.contributions import contributions
+from armscope.verdict.diagnosis import promised, rows_it_rests_on
 from armscope.verdict.importance import expected
-from armscope.verdict.promise import promised, rows_it_rests_on
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, HeldOut, Notice, SuspectRow
 from armscope.verdict.sentences import headline, makes_worse
 
