@@ -19,8 +19,7 @@ import pandas as pd
 
 from armscope.core.files import write_yaml
 from armscope.diagnosis import Settings, diagnose
-from armscope.fleet.diagnosing import diagnose_members
-from armscope.fleet.members import Member
+from armscope.fleet.members import Member, diagnose_members
 from armscope.fleet.simulation import WEAKNESSES, arm_spec
 from armscope.fleet.summary import arms, causes_of_arms, learned_sizes, priors, repeated, verdicts
 from armscope.proof.answers import claim_of

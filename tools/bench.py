@@ -23,7 +23,7 @@ from scipy.stats import binomtest
 
 from armscope.core.files import copy_file, read_json, write_json, write_text
 from armscope.core.inputs import InputError
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 
 ROOT = Path(__file__).parents[1]
 FAMILIES = {

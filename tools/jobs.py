@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 
 ROOT = Path(__file__).parents[1]
 TABLE = ROOT / "benchmarks" / "jobs.csv"

@@ -33,9 +33,8 @@ from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.prices import negative_log_prior
 from armscope.inference.problem import Problem, SelectedEffect
 from armscope.inference.search import Search
-from armscope.measurement.channel import nuisances
+from armscope.measurement.channel import CHANNELS, nuisances, supported
 from armscope.measurement.noise import known_noise
-from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.backgrounds import FAMILIES
 from armscope.physics.form_constants import FORM
 from armscope.recordings import read_recordings

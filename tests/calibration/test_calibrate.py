@@ -8,10 +8,9 @@ import scipy.optimize
 
 from armscope.calibration.calibrate import calibrate
 from armscope.calibration.geometry import constant_columns, constants_of, corrected
-from armscope.calibration.held_out import held_out_levels
+from armscope.calibration.held_out import held_out_levels, random_split
 from armscope.calibration.model import set_up
 from armscope.calibration.solve import Priors
-from armscope.calibration.splits import random_split
 from armscope.core.inputs import InputError
 from armscope.recordings import read_recordings
 from armscope.robot import chain, forward_kinematics, load_arm

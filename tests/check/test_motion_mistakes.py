@@ -8,12 +8,15 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from armscope.check.motion_channels import Channels
+from armscope.check.motion_mistakes import signs_and_sizes
+from armscope.check.motion_readings import Samples
 from armscope.check.motions import check_moving
 from armscope.recordings.motions import Motions
 from armscope.robot.description import RobotDescription
 from armscope.robot.dynamics import MovingArm, build_moving_arm
 from tests.check.test_motion_readings import recorded, said, wristed
-from tests.motion.moving import path
+from tests.motion.moving import path, robot
 
 
 def slim() -> MovingArm:
@@ -95,3 +98,29 @@ def test_a_turned_sign_is_told_where_masses_and_friction_say_so_together_and_nei
         assert any(
             each.startswith(f"problem tau{joint}_nm has the sign opposite") for each in said(turned(loaded, joint))
         )
+
+
+def told(of: Channels, factors: tuple[float, ...], up: bool = False) -> list[str]:
+    arm, rng = robot(), np.random.default_rng(0)
+    if up:
+        arm = robot(gravity_m_s2=[0, 0, 9.81])
+    q, dq, ddq = (rng.normal(size=(200, 3)) for _ in range(3))
+    torque = arm.torques(q, dq, ddq, arm.inertial) * np.array(factors)
+    return [each.text() for each in signs_and_sizes(Samples(q, dq, ddq, torque), arm, of)]
+
+
+TORQUES = Channels(("tau1_nm", "tau2_nm", "tau3_nm"), (1.0, 1.0, 1.0))
+
+
+def test_sign_and_size_of_torques_are_told_with_their_columns() -> None:
+    assert told(TORQUES, (1, 1, 1)) == []
+    sign, size = told(TORQUES, (1, -1, 40))
+    assert sign.startswith("tau2_nm has the sign opposite to what moves the stated masses. Is it the load's torque?")
+    assert size.startswith("tau3_nm is 40 times what the stated masses ask for.")
+    assert told(TORQUES, (1, -1, 1), up=True)[0].count("does the arm hang from a ceiling?") == 1
+
+
+def test_of_currents_the_sign_alone_is_judged() -> None:
+    currents = replace(TORQUES, names=("current1_a", "current2_a", "current3_a"), currents=True)
+    (sign,) = told(currents, (1, -1, 40))
+    assert sign.startswith("current2_a has the sign opposite to what moves the stated masses. Turn its sign, or that")

@@ -6,7 +6,7 @@ from scipy.special import ndtri
 
 from armscope.comparison import compare
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.seen import seen
+from armscope.comparison.gained import seen
 from armscope.comparison.sets import stacked
 from armscope.comparison.shared_model import SharedModel
 from armscope.robot import chain

@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.compensation.black_box import load_error_model, save_error_model
 from armscope.compensation.compensate import compensate_black_box
-from armscope.compensation.error_model_file import load_error_model, save_error_model
 from armscope.compensation.path import as_path
 from armscope.compensation.physical import load_identified, save_identified
 from armscope.compensation.rapid import read_rapid

@@ -9,13 +9,12 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from armscope.cli import app
+from armscope.compensation.black_box import load_error_model, save_error_model
 from armscope.compensation.compensate import compensate_black_box
-from armscope.compensation.error_model_file import load_error_model, save_error_model
 from armscope.compensation.fitting import fit_error_model
 from armscope.compensation.forward import BlackBoxArm
 from armscope.compensation.newton import Wanted
-from armscope.compensation.nominal_path import nominal_branch
-from armscope.compensation.path import as_path
+from armscope.compensation.path import as_path, nominal_branch
 from armscope.compensation.task import Options
 from armscope.core.inputs import InputError
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI, SDP_AI, ModelSpec

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import yaml
 
-from armscope.core.config_sources import with_own_sources
+from armscope.core.config import with_own_sources
 
 DEFAULT = {"seed": 1, "identification": {"poses": {"value": 85, "source": "Sec. 4"}, "seeds": 3}}
 

@@ -12,8 +12,8 @@ from armscope.physics.scene import Scene
 from armscope.robot import chain
 from armscope.robot.kinematics import joint_jacobian
 from armscope.verdict.corrections import zero_offsets
-from armscope.verdict.curves import curves_table
 from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.files import curves_table
 
 from ..physics.scenes import arm_named
 from .planted import one_run, recorded

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.errormodels.features import FOURIER_2_AI, SDP_AI, ModelSpec
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import FOURIER_2_AI, SDP_AI, ModelSpec, fit_least_squares
 from armscope.errormodels.products import ProductFeatures, candidate_terms, fit_products
 
 CUBIC_CI = ModelSpec("polynomial", 3, "cartesian")

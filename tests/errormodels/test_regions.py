@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.errormodels.features import FDP_CI, SDP_CI
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import FDP_CI, SDP_CI, fit_least_squares
 from armscope.errormodels.regions import (
     Cut,
     blended,

@@ -5,9 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from armscope.errormodels.features import FDP_AI, FDP_CI, FOURIER_2_AI, PAPER_MODELS, SDP_AI, SDP_CI
+from armscope.errormodels.features import FDP_AI, FDP_CI, FOURIER_2_AI, PAPER_MODELS, SDP_AI, SDP_CI, fit_least_squares
 from armscope.errormodels.fitted import SwarmFit
-from armscope.errormodels.least_squares import fit_least_squares
 from armscope.errormodels.swarm_fit import FitProblem, fit_random_search, fit_swarms
 from armscope.swarm.result import StopReason
 from armscope.swarm.settings import SwarmSettings

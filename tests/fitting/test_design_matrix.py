@@ -8,8 +8,7 @@ import pytest
 from armscope.fitting import design_matrix
 from armscope.fitting.design_matrix import StructuredDesign, component_rows, grouped_columns, structured_design
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.orientations import ORIENTATIONS
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import ORIENTATIONS, POSITIONS
 from armscope.measurement.whitening import WhitenedPosture, Whitener
 from armscope.physics.effect import Driver, Term, motor, term
 from armscope.physics.registry import library

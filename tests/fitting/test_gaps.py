@@ -11,8 +11,7 @@ from armscope.fitting.gaps import gaps, is_play_by_approach, rows_of_unknown_sid
 from armscope.fitting.linearisation import residuals
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.channel import nuisances
-from armscope.measurement.registry import supported
+from armscope.measurement.channel import nuisances, supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics.effect import Part, Placed
 from armscope.physics.frames import sharing_bases

@@ -16,8 +16,7 @@ from armscope.fitting.parameter_layout import parameter_layout
 from armscope.fitting.refit import Refit, refit
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.summed_rows import SummedFit, SummedRows
-from armscope.measurement.channel import ChannelResiduals
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import POSITIONS, ChannelResiduals
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics.effect import Placed
 from armscope.physics.frames import free_frames

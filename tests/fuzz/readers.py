@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from armscope.compensation.error_model_file import load_error_model
+from armscope.compensation.black_box import load_error_model
 from armscope.compensation.path import read_path
 from armscope.compensation.physical import load_identified
 from armscope.core.config import Config

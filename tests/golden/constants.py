@@ -95,8 +95,7 @@ def _trial(
 
 
 def _content(verdict: Any) -> Any:
-    from armscope.verdict.curves import curves_table
-    from armscope.verdict.files import next_poses_table
+    from armscope.verdict.files import curves_table, next_poses_table
 
     content = {"verdict": verdict.to_json(), "weights": verdict.residuals.weight}
     if verdict.next_poses is not None:

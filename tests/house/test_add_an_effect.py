@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from armscope.core.inputs import InputError
-from armscope.core.numerals import size_of
+from armscope.core.words import size_of
 from armscope.physics import registry
 from armscope.physics.drivers import KINDS
 from armscope.physics.scene import Scene

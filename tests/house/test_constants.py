@@ -1,15 +1,17 @@
 """Numbers that decide have a unit, a meaning and a basis, and the page about them is what the code is."""
 
 import ast
+import importlib
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from scipy.stats import chi
 from tools import constants
 
-from armscope.core.constants import BASES, Constants, constant, entries
+from armscope.core.constants import BASES, Constants, Entry, constant, entries
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.measurement.constants import NOISE, WEIGHTS
 
@@ -56,6 +58,52 @@ def test_a_number_without_a_basis_is_noticed(tmp_path: Path) -> None:
         'A = 3\nB, C = 1.0, 2\nD: float = -1e-3\nE = "word"\nF = f(3)\n__all__ = ["A"]\n', encoding="utf-8"
     )
     assert list(bare_numbers(module)) == ["A", "(B, C)", "D"]
+
+
+MODULES = sorted(path.relative_to(PACKAGE) for path in PACKAGE.rglob("*constants.py") if path.parent.name != "core")
+
+
+@pytest.mark.parametrize("module", [str(path) for path in MODULES])
+def test_every_group_of_any_room_tells_of_its_numbers(module: str) -> None:
+    home = importlib.import_module(f"armscope.{module.removesuffix('.py').replace('/', '.')}")
+    own = [each for each in vars(home).values() if isinstance(each, type) and each.__module__ == home.__name__]
+    assert all(entries(each) for each in own if issubclass(each, Constants))
+
+
+@dataclass(frozen=True)
+class Told(Constants):
+    """Numbers and what stands below them."""
+
+    long_m: float = 1.0
+    """how long a thing
+    is [m]; measured: with a ruler"""
+    turns: int = 2
+    """of a screw; convention"""
+
+
+@dataclass(frozen=True)
+class Silent(Constants):
+    """A number of which nothing is said."""
+
+    long_m: float = 1.0
+
+
+@dataclass(frozen=True)
+class Groundless(Constants):
+    """A number that rests on nothing."""
+
+    long_m: float = 1.0
+    """how long a thing is [m]; judgement"""
+
+
+def test_what_stands_below_a_number_is_read() -> None:
+    assert entries(Told) == [
+        Entry("long_m", 1.0, "m", "how long a thing is", "measured: with a ruler"),
+        Entry("turns", 2, "", "of a screw", "convention"),
+    ]
+    for group in (Silent, Groundless):
+        with pytest.raises(ValueError, match=r"long_m.*basis"):
+            entries(group)
 
 
 def test_groups_are_frozen() -> None:

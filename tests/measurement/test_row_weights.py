@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from armscope.measurement.channel import ChannelResiduals
-from armscope.measurement.orientations import ORIENTATIONS
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import ORIENTATIONS, POSITIONS, ChannelResiduals
 from armscope.measurement.row_weights import RowNoise
 
 

@@ -18,8 +18,7 @@ from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
-from armscope.measurement.channel import Channel
-from armscope.measurement.registry import CHANNELS
+from armscope.measurement.channel import CHANNELS, Channel
 from armscope.physics import registry
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Term, term
 from armscope.physics.model import FittedModel

@@ -9,8 +9,8 @@ from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.residuals import residual_table
 from armscope.paper.virtual import PlannedPaths, PlannedPoses, identification_poses, measure_virtual, trajectory_poses
 from armscope.robot import load_arm
+from armscope.world.of_the_paper import Tracker
 from armscope.world.tolerances import geometric_errors
-from armscope.world.tracker import Tracker
 from tests.robot.arms import SK120
 
 CORNERS_MM = [[1100, 800, 600], [1100, -800, 600], [1500, -800, 1400], [1500, 800, 1400]]

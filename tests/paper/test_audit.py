@@ -7,7 +7,7 @@ from armscope.paper.audit import audit
 from armscope.paper.audit import audit as audit_of_print
 from armscope.paper.audit_scope import AuditScope
 from armscope.paper.printed import predict_printed, printed_table2
-from armscope.world.trajectories import archimedes_spiral
+from armscope.world.of_the_paper import archimedes_spiral
 
 SMALL = AuditScope(corner_samples=256, rises=tuple(np.arange(-400.0, 401.0, 100.0)), search_generations=10)
 

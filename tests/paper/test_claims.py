@@ -14,10 +14,9 @@ from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims, 
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import GROUPS
 from armscope.paper.claims.judges import arrival, cost_ratio
-from armscope.paper.claims.verdicts import DEPENDS, FAILS, HOLDS, OPEN, interval, under_assumptions, verdict
+from armscope.paper.claims.table import DEPENDS, FAILS, HOLDS, OPEN, interval, under_assumptions, verdict
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
-from armscope.paper.outlook import outlook
-from armscope.paper.sub_volumes import sub_volumes
+from armscope.paper.outlook import outlook, sub_volumes
 from armscope.swarm.settings import SwarmSettings
 from tests.paper.conftest import ENSEMBLE, SPECS
 

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 from armscope.core.inputs import InputError
 from armscope.errormodels.features import FDP_AI, FDP_CI
 from armscope.errormodels.swarm_fit import fit_swarms
+from armscope.paper.beside_printed import table2
 from armscope.paper.real import real_measurements
 from armscope.paper.residuals import residual_table
-from armscope.paper.table2 import table2
 from armscope.recordings import as_recordings, read_recordings
 from armscope.robot import chain, load_arm
 

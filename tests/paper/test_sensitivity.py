@@ -13,9 +13,9 @@ from armscope.paper.enough_poses import COUNTS, enough_poses, smallest_sufficien
 from armscope.paper.method import method_table
 from armscope.paper.scenarios import JOINTLY, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting, judge_scenario, rank_of_anchored
-from armscope.paper.study import PlannedPaths, PlannedPoses, Sizes, StudyPlan, measured
+from armscope.paper.virtual import PlannedPaths, PlannedPoses, Sizes, StudyPlan, measured
 from armscope.swarm.settings import SwarmSettings
-from armscope.world.tracker import Tracker
+from armscope.world.of_the_paper import Tracker
 from tests.paper.conftest import CORNERS_MM, STARTS_MM
 
 LEVEL = ((1100, 800, 600), (1100, -800, 600), (1500, -800, 600), (1500, 800, 600))

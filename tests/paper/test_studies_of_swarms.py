@@ -5,8 +5,8 @@ import pytest
 
 from armscope.errormodels.features import FDP_CI, SDP_AI
 from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
-from armscope.paper.coefficients import coefficient_table
-from armscope.paper.convergence import RANDOM_SEARCH, convergence, iterations_needed
+from armscope.paper.beside_printed import coefficient_table
+from armscope.paper.method import RANDOM_SEARCH, convergence, iterations_needed
 from armscope.swarm.settings import SwarmSettings
 
 

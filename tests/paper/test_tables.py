@@ -5,11 +5,9 @@ import pandas as pd
 import pytest
 
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI
-from armscope.paper.cross_check import cross_check
-from armscope.paper.outlook import outlook
+from armscope.paper.beside_printed import cross_check, table2
+from armscope.paper.outlook import _region, _split, outlook, sub_volumes
 from armscope.paper.residuals import residual_table
-from armscope.paper.sub_volumes import _region, _split, sub_volumes
-from armscope.paper.table2 import table2
 from tests.paper.conftest import ENSEMBLE, rss
 
 

@@ -116,7 +116,7 @@ def test_tables_and_back(study):
 
 def test_equal_seeds_give_equal_measurements(errors, identification, trajectories, study):
     from armscope.paper.virtual import measure_virtual
-    from armscope.world.tracker import Tracker
+    from armscope.world.of_the_paper import Tracker
 
     poses = pd.concat([identification[0], trajectories], ignore_index=True)
     again = measure_virtual(errors, poses, Tracker((4.0, 0.0, 1.5)), ENSEMBLE, seed=2)

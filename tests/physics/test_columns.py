@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from armscope.measurement.orientations import ORIENTATIONS
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import ORIENTATIONS, POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.backgrounds import backgrounds
 from armscope.physics.drift import base_shift, tool_shift

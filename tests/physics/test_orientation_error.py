@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from armscope.core.rotations import turned_by
-from armscope.measurement.orientations import ORIENTATIONS
+from armscope.measurement.channel import ORIENTATIONS
 from armscope.physics.effect import Part
 from armscope.physics.model import Base, FittedModel, predict, predict_orientation
 from armscope.physics.model_file import load_model, save_model

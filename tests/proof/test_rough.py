@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from armscope.proof.rough import rough_scores
-from armscope.proof.rough_rates import rough_table
+from armscope.proof.rough import rough_scores, rough_table
 from armscope.proof.scoring import score
 from tests.proof.cases import claim, concealed, world
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from armscope.calibration.splits import random_split
+from armscope.calibration.held_out import random_split
 from armscope.core.inputs import InputError
 from armscope.real import protocol
 from armscope.real.protocol import ARMSCOPE, ORIENTED, measure_run, paper_models, protocol_table

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from armscope.real.protocol import COLUMNS, measure_regions, regions
 from armscope.real.reference import ReferenceRun
-from armscope.real.regions import COLUMNS, measure_regions, regions
 from armscope.recordings import as_recordings
 from armscope.robot import chain
 from tests.real.recorded import arm, table

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from armscope.recordings.importing.draft_motors import largest_of, motor_columns, words_of
+from armscope.recordings.importing.draft_columns import largest_of, motor_columns, words_of
 from armscope.recordings.importing.first_table import first_table
 
 

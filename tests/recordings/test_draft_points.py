@@ -2,7 +2,7 @@
 
 import pytest
 
-from armscope.recordings.importing.draft_points import points_of
+from armscope.recordings.importing.draft_columns import points_of
 from armscope.recordings.importing.first_table import first_table
 
 

@@ -6,8 +6,7 @@ import pytest
 import yaml
 
 from armscope.recordings import read_recordings
-from armscope.recordings.importing.draft import draft_mapping
-from armscope.recordings.importing.draft_times import FORMATS
+from armscope.recordings.importing.draft import FORMATS, draft_mapping
 from armscope.recordings.importing.formats import Time
 from armscope.recordings.importing.tables import import_recordings
 from tests.recordings.test_draft import ANGLES, POINTS, axes, names, written

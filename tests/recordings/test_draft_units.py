@@ -6,8 +6,8 @@ import pytest
 
 from armscope.core.inputs import InputError
 from armscope.recordings.importing.draft import draft_mapping
+from armscope.recordings.importing.draft_columns import FILL_IN, filled_in
 from armscope.recordings.importing.draft_motions import draft_any_mapping
-from armscope.recordings.importing.draft_units import FILL_IN, filled_in
 from armscope.recordings.importing.tables import import_recordings
 
 RNG = np.random.default_rng(3)

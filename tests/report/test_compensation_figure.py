@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL, cross_table
-from armscope.errormodels.extended import ModelSet
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI
+from armscope.errormodels.fitted import ModelSet
 from armscope.errormodels.swarm_fit import fit_swarms
 from armscope.paper.closed_loop import paper_closed_loop
 from armscope.paper.measurements import Measurements, PoseSet

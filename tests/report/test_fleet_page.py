@@ -6,8 +6,7 @@ import pandas as pd
 import pytest
 
 from armscope.diagnosis import Settings
-from armscope.fleet.diagnosing import FAILURE, diagnose_members
-from armscope.fleet.members import read_fleet
+from armscope.fleet.members import FAILURE, diagnose_members, read_fleet
 from armscope.fleet.simulation import simulate
 from armscope.fleet.summary import arms, causes_of_arms, verdicts
 from armscope.report.figures.fleet import fleet_figure

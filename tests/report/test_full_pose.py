@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from armscope.compensation.closed_loop import NO_MODEL
-from armscope.errormodels.extended import ModelSet
 from armscope.errormodels.features import FDP_CI, FOURIER_2_AI
+from armscope.errormodels.fitted import ModelSet
 from armscope.paper.full_pose import BENT_WRIST, paper_full_pose
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.robot import chain

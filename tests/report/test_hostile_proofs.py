@@ -17,7 +17,7 @@ from armscope.real.scoring import score as score_of_real
 from armscope.report.figures.proof import draw_all as draw_proof
 from armscope.report.figures.real_proof import draw_all as draw_real
 from armscope.report.pages.proof import write_proof_page
-from armscope.report.pages.real_proof import write_real_proof_page
+from armscope.report.pages.real_concealed import write_real_proof_page
 from armscope.report.style import save_figure
 from tests.proof.test_pages import worlds
 from tests.real.test_scoring import altered, original, spring

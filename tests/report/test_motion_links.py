@@ -7,7 +7,7 @@ import pytest
 from armscope.report.figures.twist import draw_twist
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.pages.motion import write_motion_report
-from armscope.report.sections.motion_links import links_of_motion
+from armscope.report.sections.motion import links_of_motion
 from tests.motion.two_inertias import wound_up
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from armscope.report.pages.paper_outlook import Outlook, ReproducedArm
+from armscope.report.pages.paper import Outlook, ReproducedArm
 
 STAGES = [("identification", "fit"), ("test 1", "open loop"), ("test 1", "closed loop")]
 

@@ -1,29 +1,42 @@
 """Numbers to enter in a controller's model: an arm built from them stands where the diagnosed one does."""
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import yaml
 
 from armscope.core.types import Array
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import row_terms
+from armscope.physics.registry import effect_named
+from armscope.report.pages.diagnosis import write_work_order
+from armscope.report.sectioning import Subject
 from armscope.robot.arm import Arm, build_arm
 from armscope.robot.kinematics import forward_kinematics
 from armscope.robot.library import nominal_description
+from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import (
+    ALL_OF_THEM,
+    NOT_SURE,
+    bars_set_right,
     corrected_origins,
     corrected_rows,
     corrected_table,
+    corrected_ur_kinematics,
     unsettled,
     zero_offsets,
 )
 from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.effects import FoundEffect, Parameter
+from armscope.verdict.tasks import task_of
+from tests.report import verdicts
 from tests.report.verdicts import found
+from tests.robot.test_controllers import tool_of, ur5e
 from tests.robot.test_urdf import TORSO_ARM, build
 
 ERRORS = {"tx": 0.7e-3, "ty": -0.2e-3, "tz": 0.4e-3, "rx": 6e-4, "ry": -9e-4, "rz": 7e-4}
@@ -186,3 +199,74 @@ def test_an_arm_has_rows_or_origins_never_both() -> None:
     assert corrected_rows(urdf) is None
     assert corrected_origins(rows) is None
     assert corrected_rows(rows) is not None
+
+
+def test_a_nominal_arm_is_not_offered_as_a_corrected_one() -> None:
+    """On a real arm it would undo the maker's own calibration."""
+    assert corrected_ur_kinematics(saying(ur5e())) is None
+
+
+def test_zeros_and_rows_that_were_found_have_their_signs_in_the_file() -> None:
+    arm = ur5e()
+    row = found(
+        "link_geometry", "link 2", Parameter("a", "mm", 0.8, 0.01), Parameter("alpha", "rad", 7e-4, 1e-5),
+        Parameter("d", "mm", 0.3, 0.01), Parameter("beta", "rad", 5e-4, 1e-5),
+    )  # fmt: skip
+    zero = found("joint_offset", "joint 4", Parameter("offset", "rad", -3e-3, 1e-5))
+    written = corrected_ur_kinematics(saying(arm, row, zero))
+    assert written is not None
+    content = arm.description.model_dump()
+    stated = content["dh"]["joints"][1]
+    stated |= {"a_mm": stated["a_mm"] + 0.8, "alpha_deg": np.degrees(7e-4), "d_mm": 0.3, "beta_deg": np.degrees(5e-4)}
+    real = build_arm(type(arm.description).model_validate(content))
+    for angles in np.random.default_rng(3).uniform(-2, 2, (8, 6)):
+        actual = angles + np.array([0, 0, 0, -3e-3, 0, 0])
+        np.testing.assert_allclose(tool_of(written, angles), forward_kinematics(real, actual[None])[0], atol=1e-9)
+        assert np.linalg.norm(tool_of(written, angles) - forward_kinematics(arm, angles[None])[0]) > 1e-4
+
+
+def test_who_loads_the_file_is_told_not_to_reset_zeros_as_well(tmp_path: Path) -> None:
+    """Both were advised of one arm: 0.71 mm by the zeros alone, 1.25 mm by both, of 1.38."""
+    case = verdicts.single()
+    model = replace(case.verdict.model, arm=ur5e())
+    zero = found("joint_offset", "joint 4", Parameter("offset", "rad", -3e-3, 1e-5))
+    verdict = replace(case.verdict, model=model, effects=(*case.verdict.effects, zero))
+    tables = write_work_order(Subject(verdict), tmp_path)
+    assert tables == ("zero_offsets.csv", "corrected_dh.csv", "ur_kinematics.yaml")
+    assert all((tmp_path / name).is_file() for name in tables)
+    for name in ("ur_kinematics.yaml", "work-order.html"):
+        assert "never as well" in (tmp_path / name).read_text()
+    assert set(yaml.safe_load((tmp_path / "ur_kinematics.yaml").read_text())) == {"kinematics"}
+
+
+ROCKER = Parameter("rocker", "m/m", -2.87e-4, 3e-6)
+
+
+def test_both_bars_that_are_off_are_changed_together_each_by_minus_its_error() -> None:
+    """A rod adjusted alone made an arm worse, 0.19 to 0.20 mm, where 0.04 was promised."""
+    told = bars_set_right([Parameter("rod", "m/m", 5.2e-5, 2e-6), ROCKER, Parameter("crank_angle", "deg", 90, 0)])
+    assert told.startswith("make the rocker longer by 287 ppm (± 6) of the rocker's length and make the rod shorter by")
+    assert told.endswith(ALL_OF_THEM)
+    lengths = bars_set_right([Parameter("rod", "mm", 0.2, 0.01), Parameter("rocker", "mm", -0.1, 0.01)])
+    assert "make the rod shorter by 0.200 mm (± 0.020)" in lengths
+
+
+def test_a_bar_within_its_interval_is_left_alone() -> None:
+    one = bars_set_right([Parameter("rod", "m/m", 2.4e-6, 2.3e-6), ROCKER])
+    assert "leave the rod as it is" in one
+    assert ALL_OF_THEM not in one
+    assert "ppm" not in one.partition(";")[2]
+    assert bars_set_right([Parameter("rod", "mm", 0.1, 0.2), Parameter("rocker", "mm", 0.1, 0.2)]) == NOT_SURE
+    assert bars_set_right([]) == "–"
+
+
+def test_the_work_order_tells_both_bars() -> None:
+    effect = verdicts.found("parallelogram_geometry", "parallelogram", Parameter("rod", "m/m", 5.2e-5, 2e-6), ROCKER)
+    case = verdicts.case("parallelogram-120kg", (effect,))
+    (cause,) = contributions(case.verdict).causes
+    task = task_of(case.verdict.model.scene(case.recordings), cause, effect)
+    assert "make the rocker longer by 287 ppm" in task.instruction
+    assert "make the rod shorter by 52 ppm" in task.instruction
+    definition = effect_named("parallelogram_geometry")
+    assert definition
+    assert "each bar that is off" in definition.cure.words

@@ -11,8 +11,8 @@ import pytest
 
 from armscope.core.averages import rms
 from armscope.report.pages.diagnosis import write_work_order
+from armscope.report.sectioning import Subject
 from armscope.report.sections import cures, effects
-from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
 from armscope.verdict.doubts import OPEN
 from armscope.verdict.effects import Parameter

@@ -4,8 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from armscope.report.pages.diagnosis import write_report
+from armscope.report.sectioning import Subject
 from armscope.report.sections.effects import EFFECTS
-from armscope.report.subject import Subject
 from armscope.verdict.contributions import contributions
 from armscope.verdict.effects import Parameter
 from armscope.verdict.scatter_steps import LOWERS_NOTHING, finding_out

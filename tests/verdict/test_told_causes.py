@@ -1,12 +1,17 @@
 """What dominates once the geometry is calibrated is told, however little it is beside the geometry."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 
-from armscope.verdict.effects import Cause
+import pytest
+
+from armscope.verdict.effects import Cause, Parameter
 from armscope.verdict.importance import minor_and_told
-from armscope.verdict.told_causes import is_spread, told_and_rest, with_share
+from armscope.verdict.told_causes import is_spread, kind_and_place, told_and_rest, vague, with_share
 from armscope.verdict.wording import SPREAD
+from tests.report import verdicts
 
 
 def cause(family: str, share: float, after: float = math.nan, text: str = "", everywhere: bool = False) -> Cause:
@@ -68,3 +73,23 @@ def test_the_member_that_leads_is_not_credited_with_the_share_of_all() -> None:
     assert with_share(geometry, first=False, alone=0.35).endswith("– 35 %, 79 % with the others")
     assert with_share(geometry, first=False, alone=0.78).endswith("– 79 %"), "the others are next to nothing"
     assert with_share(geometry, first=False, alone=-0.1).endswith("– 79 %"), "others cancel more than it has"
+
+
+BASE = verdicts.compliance("joint 2", named_as="region", title="elastic, around joint 2, base")
+
+
+def test_one_of_two_is_told_as_either() -> None:
+    either = replace(BASE, title="base compliance at base or bearing compliance at joint 1")
+    assert kind_and_place(either) == vague(either) == "either base compliance at base or bearing compliance at joint 1"
+
+
+def test_a_region_is_told_with_what_is_likeliest_there() -> None:
+    assert kind_and_place(BASE) == "something gives way under load around joint 2, base"
+    assert vague(BASE) == f"{kind_and_place(BASE)}, most likely joint compliance at joint 2"
+    assert kind_and_place(replace(BASE, location="payload")) == "the payload may not be as stated"
+
+
+@pytest.mark.parametrize(("stderr", "is_open"), [(1e-7, False), (1e-5, True)])
+def test_a_size_that_may_be_zero_is_said_to_be_open(stderr: float, is_open: bool) -> None:
+    effect = replace(BASE, parameters=(Parameter("compliance", "rad/(N m)", 1e-6, stderr),))
+    assert vague(effect).endswith("these rows do not determine") == is_open

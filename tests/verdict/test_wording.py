@@ -1,14 +1,24 @@
 """Numbers in words: values with their intervals and units, evidence as odds, shares and counts."""
 
+from __future__ import annotations
+
 import math
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from armscope.core.numerals import UNITS, rounded, shown_unit, size_of
+from armscope.core.words import UNITS, rounded, shown_unit, size_of
 from armscope.verdict.effects import Parameter
-from armscope.verdict.wording import evidence_in_words, percent, read_parameter, spelled
+from armscope.verdict.wording import (
+    evidence_in_words,
+    odds_in_words,
+    percent,
+    read_parameter,
+    spelled,
+    times,
+    with_prefix,
+)
 
 
 def test_a_compliance_is_also_told_as_a_stiffness_with_its_interval_turned_round():
@@ -96,3 +106,12 @@ def test_shares_carry_no_false_digits(share, text):
 
 def test_counts_are_words_while_words_exist():
     assert [spelled(n) for n in (0, 2, 12, 13)] == ["no", "two", "twelve", "13"]
+
+
+def test_what_is_beyond_counting_is_told_without_digits() -> None:
+    assert [times(each) for each in (2.24, 810.0, 568932420.0)] == ["2.2", "810", "more than a thousand"]
+    assert [odds_in_words(each) for each in (2.5, 8.0, 18.4)] == ["12 to 1", "3000 to 1", "far beyond a thousand to 1"]
+
+
+def test_large_numbers_have_a_prefix() -> None:
+    assert [with_prefix(each, "N m") for each in (12.0, 2.5e4, 3e6)] == ["12 N m", "25 kN m", "3 MN m"]

@@ -11,9 +11,9 @@ import pytest
 from armscope.core.averages import rms
 from armscope.fitting.registration import fit_frames
 from armscope.report.pages.diagnosis import steps_of_rows, write_report, write_work_order
+from armscope.report.sectioning import Subject
 from armscope.report.sections import locations
 from armscope.report.sections import work_order as section
-from armscope.report.subject import Subject
 from armscope.robot.arm import build_arm
 from armscope.verdict.contributions import contributions
 from armscope.verdict.corrections import as_entered, corrected_rows, zero_offsets

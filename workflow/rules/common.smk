@@ -9,7 +9,7 @@ from pathlib import Path
 import yaml
 
 from armscope.core.config import Config
-from armscope.core.config_sources import with_own_sources
+from armscope.core.config import with_own_sources
 from armscope.core.files import write_text
 from armscope.core.inputs import InputError, validate
 from armscope.core.provenance import digest

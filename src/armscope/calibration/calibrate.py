@@ -7,21 +7,63 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.calibration.by_run import misses_by_run
 from armscope.calibration.confounding import Confounded, confounded_parameters
 from armscope.calibration.constants import CALIBRATING, FITTING
+from armscope.calibration.fit import placed
+from armscope.calibration.held_out import foretold, random_split
 from armscope.calibration.model import Level, SetUp, set_up
 from armscope.calibration.plausibility import doubtful_loads, implausible_fit, no_held_out_gain, require_loads
-from armscope.calibration.result import Calibration
-from armscope.calibration.shared_frames import sharing
+from armscope.calibration.result import Calibration, misses_by_run
 from armscope.calibration.solve import Priors, Redundancy, Solved, scales_of, solve
-from armscope.calibration.splits import foretold, random_split
 from armscope.core.averages import rms_distance
 from armscope.core.inputs import InputError
+from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.fitting.constants import EXCHANGE
+from armscope.fitting.exchanged_tool import exchanged_tool
+from armscope.fitting.registration import fit_frames
 from armscope.measurement.robust import scale_of
 from armscope.recordings import Recordings
 from armscope.robot import Arm
+
+
+def _sharing(
+    arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool | None
+) -> tuple[list[str], list[str]]:
+    """What speaks against the frames that runs are said to share: notes and doubts, as sentences.
+
+    A note if tools must be free per run and nobody said otherwise.
+    """
+    if len(np.unique(recordings.run)) < 2:
+        return [], []
+    notes, doubts = list[str](), list[str]()
+    some = replace(recordings.rows(spread_evenly(len(recordings), CALIBRATING.rows_of_frames)), orientation=None)
+    if not tool_per_run and (found := exchanged_tool(fit_frames(arm, some), some)):
+        text = f"one tool for all runs leaves {found.shared_mm:.3g} mm, one per run {found.own_mm:.3g} mm"
+        if tool_per_run is None:
+            notes.append(f"{text}: it was exchanged, and is free in every run")
+        else:
+            doubts.append(f"{text}: it was exchanged")
+    if one_base:
+        free = bool(notes) or bool(tool_per_run)
+        shared, own = (_usual_miss(arm, some, one, free) for one in (True, False))
+        if shared > EXCHANGE.worse * own:
+            text = f"one base frame for all runs leaves {shared * 1e3:.3g} mm, one per run {own * 1e3:.3g} mm"
+            doubts.append(f"{text}: it was moved")
+    return notes, doubts
+
+
+def _usual_miss(arm: Arm, recordings: Recordings, one_base: bool, tool_per_run: bool) -> float:
+    """The spread (1-sigma per axis by the median, m) about base and tool, for the numbers that these cost.
+
+    Infinite where frames for so few rows would follow anything.
+    """
+    rows = set_up(arm, recordings, one_base, tool_per_run)
+    measured, spent = 3 * len(rows), 6 * len(rows.base_names) + 3 * len(rows.tool_names)
+    if measured < EXCHANGE.least_numbers * spent:
+        return float(np.inf)
+    spread = scale_of(rows.residuals(placed(rows)))
+    return spread * float(np.sqrt(measured / (measured - spent)))
 
 
 # so many parameters: each is a choice of its own that a user makes by name, and all have a default
@@ -64,7 +106,7 @@ def calibrate(
             without loads.
     """
     priors = priors or Priors()
-    notes, doubts = sharing(arm, recordings, one_base, tool_per_run)
+    notes, doubts = _sharing(arm, recordings, one_base, tool_per_run)
     tool_per_run = bool(notes) if tool_per_run is None else tool_per_run
     rows = set_up(arm, recordings, one_base, tool_per_run, orientation is not False)
     require_loads(recordings, rows, level)

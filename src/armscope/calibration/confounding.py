@@ -15,18 +15,13 @@ TOOL_POINT = ("tool x", "tool y", "tool z")
 
 @dataclass(frozen=True)
 class Confounded:
-    """Which fitted parameters do what a held one does.
-
-    Attributes:
-        name: the parameter held.
-        partners: fitted parameters that together move the tool as it does, the most alike first; none where it
-            hardly moves the tool. Those of all bases or tools count as one: "base rz".
-        left: share (0 to 1) of what it does to the tool that the partners leave.
-    """
+    """Which fitted parameters do what a held one does."""
 
     name: str
+    # fitted parameters that together move the tool as it does, the most alike first; none where it hardly moves the
+    # tool. Those of all bases or tools count as one: "base rz"
     partners: tuple[str, ...]
-    left: float
+    left: float  # share (0 to 1) of what it does to the tool that the partners leave
 
     def text(self) -> str:
         """In words; of many partners only the frames and joints that they belong to."""

@@ -64,9 +64,14 @@ def export(calibration: Calibration, folder: Path | str, target: str | None = No
         written = ["robot.yaml", "robot.urdf"]
     else:
         table = calibration.arm.description.dh.model_dump(exclude_defaults=True) | {
-            "joints": [_row(row.model_dump()) for row in calibration.arm.description.dh.joints]
+            "joints": [
+                {name: value for name, value in row.model_dump().items() if name != "beta_deg" or value != 0}
+                for row in calibration.arm.description.dh.joints
+            ]
         }
-        described = _described(calibration.arm)
+        described = calibration.arm.description.model_dump(
+            mode="json", exclude_defaults=True, include={"links", "tool_load", "parallelogram"}
+        )
         name = common.pop("name")
         write_yaml(folder / "robot.yaml", {"name": name, "dh": table, **common, **described})
         write_text(folder / "robot.urdf", _fresh_urdf(calibration.arm, tool * 1e-3))
@@ -119,17 +124,6 @@ def _common(arm: Arm, tool_mm: Array) -> dict[str, Any]:
     if arm.description.dh is None and arm.description.tool_load is not None:
         keep["tool_load"] = arm.description.tool_load.model_dump(mode="json")
     return keep | {"tool_mm": tool_mm.tolist(), "gravity_m_s2": list(arm.description.gravity_m_s2)}
-
-
-def _described(arm: Arm) -> dict[str, Any]:
-    """Masses and linkage, which a URDF carries itself or has no place for."""
-    return arm.description.model_dump(
-        mode="json", exclude_defaults=True, include={"links", "tool_load", "parallelogram"}
-    )
-
-
-def _row(row: dict[str, float]) -> dict[str, float]:
-    return {name: value for name, value in row.items() if name != "beta_deg" or value != 0}
 
 
 def _fresh_urdf(arm: Arm, tool: Array) -> str:

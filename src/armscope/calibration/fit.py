@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from armscope.calibration.constants import FITTING
+from armscope.calibration.geometry import Posed, State
 from armscope.calibration.model import SetUp
-from armscope.calibration.state import Posed, State
 from armscope.core.types import Array
 from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, Reason, gauss_newton
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
 from armscope.measurement import robust
 
-Rule = Callable[[Array], Array]
-"""(N,) weights by what is left of the points (N, 3), m."""
+Rule = Callable[[Array], Array]  # (N,) weights by what is left of the points (N, 3), m
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +62,7 @@ class _Calibration(NonlinearProblem[State, Posed]):
 
 
 def least_squares(
-    set_up: SetUp,
-    state: State,
-    free: NDArray[np.bool_],
-    stiffness: Array | None = None,
-    rule: Rule = all_alike,
+    set_up: SetUp, state: State, free: NDArray[np.bool_], stiffness: Array | None = None, rule: Rule = all_alike
 ) -> Fitted:
     """Minimise sum of weights * squared residuals + sum of stiffness * squared change, from ``state``.
 
@@ -125,11 +120,7 @@ def _quartic(left: Array) -> Array:
 
 def placed(set_up: SetUp, most_steps: int = FITTING.steps) -> State:
     """Base frames and tools of the nominal arm, from closed-form starts refined; the start of every calibration.
-
-    Args:
-        set_up: rows and arm.
-        most_steps: of refinement; a few are enough to see whether an arm explains its points at all.
-    """
+    ``most_steps``: of refinement; a few are enough to see whether an arm explains its points at all."""
     frames, n_bases, n_tools = set_up.nominal_frames, len(set_up.base_names), len(set_up.tool_names)
     flange = frames.tool - frames.tool_rotation @ set_up.arm.tool
     poses = FlangePoses(flange, frames.tool_rotation, set_up.measured, set_up.base, set_up.tool)

@@ -9,8 +9,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.geometry import Constant, constant_columns, constants_of, corrected, turn_columns
-from armscope.calibration.state import Posed, State
+from armscope.calibration.geometry import (
+    Constant,
+    Posed,
+    State,
+    constant_columns,
+    constants_of,
+    corrected,
+    turn_columns,
+)
 from armscope.core.grouping import by_label
 from armscope.core.types import Array, Indices
 from armscope.fitting.placement import frame_columns
@@ -26,32 +33,24 @@ LEVELS: tuple[Level, ...] = ("nominal", "offsets", "geometric", "compliance")
 
 @dataclass(frozen=True, eq=False)
 class SetUp:
-    """What is fitted to what.
-
-    Attributes:
-        arm: the nominal arm.
-        angles, measured: (N, m) rad, (N, 3) m.
-        base, tool: (N,) number of each row's base frame and tool.
-        base_names, tool_names: what these are called.
-        constants: the arm's constants.
-        loads: (N, m) N m, torque that turns each motor, recorded or from the mass table; None if neither is known.
-        load_source: "recorded torques", "gravity of the mass table" or "".
-        orientations: (N, 3, 3) measurement frame from tool frame, NaN where not measured; None uses positions only.
-        lever: m/rad, by which an orientation error counts beside a position error.
-    """
+    """What is fitted to what."""
 
     arm: Arm
-    angles: Array
-    measured: Array
+    angles: Array  # (N, m) rad
+    measured: Array  # (N, 3) m
+    # base, tool: (N,) number of each row's base frame and tool
     base: Indices
     tool: Indices
+    # base_names, tool_names: what these are called
     base_names: tuple[str, ...]
     tool_names: tuple[str, ...]
-    constants: tuple[Constant, ...]
+    constants: tuple[Constant, ...]  # the arm's constants
+    # (N, m) N m, torque that turns each motor, recorded or from the mass table; None if neither is known
     loads: Array | None
-    load_source: str
+    load_source: str  # "recorded torques", "gravity of the mass table" or ""
+    # (N, 3, 3) measurement frame from tool frame, NaN where not measured; None uses positions only
     orientations: Array | None = None
-    lever: float = 0.0
+    lever: float = 0.0  # m/rad, by which an orientation error counts beside a position error
 
     def __len__(self) -> int:
         return len(self.angles)
@@ -223,11 +222,7 @@ def _of(name: str) -> str:
 
 
 def set_up(
-    arm: Arm,
-    recordings: Recordings,
-    one_base: bool = False,
-    tool_per_run: bool = False,
-    orientation: bool = False,
+    arm: Arm, recordings: Recordings, one_base: bool = False, tool_per_run: bool = False, orientation: bool = False
 ) -> SetUp:
     """Recordings as a set-up of base frames (one per run) and tools (one per target).
 

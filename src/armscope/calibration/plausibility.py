@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.calibration.by_run import no_gain
 from armscope.calibration.constants import CALIBRATING, SIZES
 from armscope.calibration.model import GRAVITY, Level, SetUp
-from armscope.calibration.result import SHOWN
+from armscope.calibration.result import SHOWN, no_gain
 from armscope.calibration.solve import Solved
 from armscope.core.inputs import InputError
 from armscope.core.types import Array

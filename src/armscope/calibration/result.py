@@ -3,64 +3,115 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from armscope.calibration.by_run import ALL, no_gain
 from armscope.calibration.confounding import Confounded
 from armscope.calibration.constants import CALIBRATING, SIZES
-from armscope.calibration.geometry import nominal_values
+from armscope.calibration.fit import placed
+from armscope.calibration.geometry import State, nominal_values
+from armscope.calibration.held_out import foretold, parts_to_test
 from armscope.calibration.model import Level, SetUp
-from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
 from armscope.core.told import InWords
 from armscope.core.types import Array
+from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}
-"""Factor and unit for reading."""
+ALL = "all"
+
+
+# so many parameters: a table and its calibration (three), how that is done again (one), and how it is tested (two)
+def misses_by_run(
+    rows: SetUp, recordings: Recordings, fitted: State, refit: Callable[[SetUp], State], splits: int, parameters: int
+) -> pd.DataFrame:
+    """RMS of the 3D distance by run, and of all rows.
+
+    Args:
+        rows: the set-up of the whole table.
+        recordings: the table.
+        fitted: the calibration of all rows.
+        refit: the same calibration of some of the rows.
+        splits: how often 70 % of the configurations are drawn to learn from; see `parts_to_test` of short tables.
+        parameters: how many are fitted.
+
+    Returns:
+        run ("all" first), rows, in_sample_mm, held_out_mm and held_out_std_mm (mean and standard deviation over the
+        splits), frames_only_mm (held out with base and tool alone). A row is tested only where its base and tool were
+        learned.
+    """
+    without = replace(rows, orientations=None)
+    names = [ALL, *dict.fromkeys(recordings.run.tolist())]
+    if len(names) == 2:
+        names = names[:1]
+    of_run = {name: np.full(len(rows), True) if name == ALL else recordings.run == name for name in names}
+    whole = without.residuals(fitted)
+    held: dict[str, list[float]] = {name: [] for name in names}
+    alone: dict[str, list[float]] = {name: [] for name in names}
+    for seed, pairs in enumerate(parts_to_test(recordings, splits, parameters)):
+        tested, found, frames = [], np.empty_like(whole), np.empty_like(whole)
+        for train, test in pairs:
+            if len(train) > CALIBRATING.rows_of_runs:
+                train = np.sort(np.random.default_rng(seed).permutation(train)[: CALIBRATING.rows_of_runs])
+            test = foretold(rows, train, test)
+            found[test] = without.residuals(refit(rows.rows(train)))[test]
+            frames[test] = without.residuals(placed(without.rows(train)))[test]
+            tested.append(test)
+        for name in names:
+            mine = np.concatenate(tested)
+            mine = mine[of_run[name][mine]]
+            if len(mine):
+                held[name].append(1e3 * rms_distance(found[mine]))
+                alone[name].append(1e3 * rms_distance(frames[mine]))
+    return pd.DataFrame(
+        {
+            "run": names,
+            "rows": [int(of_run[name].sum()) for name in names],
+            "in_sample_mm": [1e3 * rms_distance(whole[of_run[name]]) for name in names],
+            "held_out_mm": [_mean(held[name]) for name in names],
+            "held_out_std_mm": [float(np.std(held[name])) if held[name] else np.nan for name in names],
+            "frames_only_mm": [_mean(alone[name]) for name in names],
+        }
+    )
+
+
+def no_gain(misses: pd.DataFrame | None) -> bool:
+    """Whether poses that took no part are foretold no better than by base and tool alone."""
+    return misses is not None and bool(misses["held_out_mm"].iloc[0] >= misses["frames_only_mm"].iloc[0])
+
+
+def _mean(values: list[float]) -> float:
+    return float(np.mean(values)) if values else np.nan
+
+
+SHOWN = {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "rad/(N m)": (1e6, "µrad/(N m)")}  # Factor and unit for reading
 UNDETERMINED = {"m": SIZES.length_m, "rad": SIZES.angle_rad, "rad/(N m)": SIZES.compliance_rad_nm}
 """Standard errors from which rows say less of a constant than what is plausible of any arm."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Calibration(InWords):
-    """A calibrated arm.
+    """A calibrated arm."""
 
-    Attributes:
-        level: what was free beyond base and tool.
-        set_up: rows, frames and the nominal arm.
-        state: the fitted values.
-        free: (P,) which parameters were fitted.
-        weights: (N,) of the rows; all 1 without the robust option.
-        covariance: (free, free) of the fitted parameters, in their units; base parameters as twists in base axes.
-        steps: Gauss-Newton steps made.
-        reason: why the fit stopped.
-        suspects: (N,) rows that look like bad shots: beyond six times the spread.
-        ids: (N,) the rows' ids, "run: id".
-        notes: what was decided: orientations used or left out, tools free per run.
-        doubts: why the result should not be used; empty if all is well.
-        held: parameters of the level that stay nominal, since the poses cannot tell them from others, and from which.
-        misses: in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for.
-    """
-
-    level: Level
-    set_up: SetUp
+    level: Level  # what was free beyond base and tool
+    set_up: SetUp  # rows, frames and the nominal arm
     state: State
-    free: NDArray[np.bool_]
-    weights: Array
-    covariance: Array
+    free: NDArray[np.bool_]  # (P,) which parameters were fitted
+    weights: Array  # (N,) of the rows; all 1 without the robust option
+    covariance: Array  # (free, free) of the fitted parameters, in their units; base parameters as twists in base axes
     steps: int
-    reason: str
-    suspects: NDArray[np.bool_]
-    ids: NDArray[np.str_]
-    notes: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
+    reason: str  # why the fit stopped
+    suspects: NDArray[np.bool_]  # (N,) rows that look like bad shots: beyond six times the spread
+    ids: NDArray[np.str_]  # (N,) the rows' ids, "run: id"
+    notes: tuple[str, ...] = ()  # what was decided: orientations used or left out, tools free per run
+    doubts: tuple[str, ...] = ()  # why the result should not be used; empty if all is well
+    # parameters of the level that stay nominal, since the poses cannot tell them from others, and from which
     held: tuple[Confounded, ...] = ()
-    misses: pd.DataFrame | None = None
+    misses: pd.DataFrame | None = None  # in-sample and held-out RMS by run, see `misses_by_run`; None if not asked for
 
     @functools.cached_property
     def arm(self) -> Arm:

@@ -9,14 +9,30 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from armscope.calibration.constants import FITTING, SIZES
+from armscope.calibration.constants import FITTING, IDENTIFYING, SIZES
 from armscope.calibration.fit import Fitted, least_squares, placed, robust_least_squares
-from armscope.calibration.identifiability import identifiable
+from armscope.calibration.geometry import State
 from armscope.calibration.model import Level, SetUp
-from armscope.calibration.state import State
-from armscope.core.types import Array
+from armscope.core.types import Array, Indices
+from armscope.design.independence import independent_columns
 from armscope.fitting.gauge import FrameColumns, gauge
 from armscope.measurement.robust import scale_of
+
+
+def identifiable(jacobian: Array, tiers: Indices, scales: Array) -> NDArray[np.bool_]:
+    """The columns that can be told apart, a lower tier first (`armscope.design.independence`).
+
+    Args:
+        jacobian: (M, P).
+        tiers: (P,) order of preference: what base frame and first joint have in common is settled for the base.
+        scales: (P,) size of a unit in each column's own unit (1 m; 1 rad / reach), so that columns compare.
+
+    Returns:
+        (P,) boolean.
+    """
+    triangular = np.linalg.qr(jacobian, mode="r") if len(jacobian) > jacobian.shape[1] else jacobian
+    return independent_columns(triangular * scales / np.sqrt(len(jacobian) / 3), tiers, IDENTIFYING.smallest_trace)
+
 
 Redundancy = Literal["fixed", "priors"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.calibration.state import State
+from armscope.calibration.geometry import State
 from armscope.check.plain_constants import LEADING
 from armscope.check.plain_errors import PlainErrors
 from armscope.check.suspicion import APPROACH, Suspicion

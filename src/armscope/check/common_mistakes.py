@@ -17,10 +17,8 @@ from armscope.recordings import Recordings
 from armscope.robot import Arm
 from armscope.robot.arm import build_arm
 
-MIRRORED = "left-handed frame"
-"""Kind of what makes the points a mirror image of the arm's."""
-PARALLELOGRAM = ("base", "upper arm", "forearm")
-"""What the motors up to that of a parallelogram turn."""
+MIRRORED = "left-handed frame"  # Kind of what makes the points a mirror image of the arm's
+PARALLELOGRAM = ("base", "upper arm", "forearm")  # What the motors up to that of a parallelogram turn
 
 
 @dataclass(frozen=True)

@@ -57,21 +57,13 @@ class Context:
 
 @dataclass(frozen=True)
 class Repeats:
-    """Poses that were measured more than once.
+    """Poses that were measured more than once."""
 
-    Attributes:
-        copies: rows that repeat another row's angles and position to the last digit.
-        visits: poses visited again (apart from copies), as many groups.
-        rows: rows in these groups.
-        scatter: RMS per axis about each group's mean, m; NaN without groups.
-        looked_at: how many rows were looked at (very long tables: the first ones).
-    """
-
-    copies: int
-    visits: int
-    rows: int
-    scatter: float
-    looked_at: int
+    copies: int  # rows that repeat another row's angles and position to the last digit
+    visits: int  # poses visited again (apart from copies), as many groups
+    rows: int  # rows in these groups
+    scatter: float  # RMS per axis about each group's mean, m; NaN without groups
+    looked_at: int  # how many rows were looked at (very long tables: the first ones)
 
 
 @dataclass(frozen=True)

@@ -29,12 +29,7 @@ def still(recordings: Recordings) -> list[Suspicion]:
 
 
 def too_few(recordings: Recordings, arm: Arm | None) -> list[Suspicion]:
-    """A hint where a diagnosis would not begin.
-
-    Args:
-        recordings: the table.
-        arm: of as many motors as the table; None where it is not known.
-    """
+    """A hint where a diagnosis would not begin. ``arm``: of as many motors as the table; None where it is not known."""
     needed = TABLE.rows if arm is None else rows_needed(arm, recordings)
     if len(recordings) >= needed:
         return []

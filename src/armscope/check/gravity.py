@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.calibration.geometry import State
 from armscope.calibration.model import set_up
-from armscope.calibration.state import State
 from armscope.check.constants import WRONG_GRAVITY
 from armscope.check.plain_errors import drive_columns
 from armscope.check.suspicion import GRAVITY, Suspicion
@@ -57,21 +57,13 @@ AROUND = "against gravity"
 
 @dataclass(frozen=True, eq=False)
 class _Giving:
-    """Joints that give way to gravity along each axis of the base, beyond geometry and drives.
+    """Joints that give way to gravity along each axis of the base, beyond geometry and drives."""
 
-    Attributes:
-        alike: (3, m, 3, m) products of what they do.
-        beyond: the same of what is left of it beyond geometry and drives.
-        towards: (3, m) products of that with what geometry and drives leave of the points.
-        square: of what they leave, m^2.
-        free: how many numbers of it are free.
-    """
-
-    alike: Array
-    beyond: Array
-    towards: Array
-    square: float
-    free: int
+    alike: Array  # (3, m, 3, m) products of what they do
+    beyond: Array  # the same of what is left of it beyond geometry and drives
+    towards: Array  # (3, m) products of that with what geometry and drives leave of the points
+    square: float  # of what they leave, m^2
+    free: int  # how many numbers of it are free
 
     @staticmethod
     def of(arm: Arm, table: Recordings, state: State) -> _Giving:

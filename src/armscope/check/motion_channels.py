@@ -16,28 +16,19 @@ from armscope.motion.check import channels
 from armscope.motion.samples.standing import still_span
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
-from armscope.verdict.counting import times
-from armscope.verdict.wording import percent
+from armscope.verdict.wording import percent, times
 
-SIGN = "has the sign opposite"
-"""What is said of every torque whose sign is turned, after its name."""
-OF_MASSES = "what moves the stated masses"
-"""Opposite to which it is, where it is masses that say so."""
+SIGN = "has the sign opposite"  # What is said of every torque whose sign is turned, after its name
+OF_MASSES = "what moves the stated masses"  # Opposite to which it is, where it is masses that say so
 
 
 @dataclass(frozen=True)
 class Channels:
-    """Columns of torque or current, by joint.
-
-    Attributes:
-        names: of the table.
-        gains: N m (N) per unit of each joint's column.
-        currents: whether they are amperes.
-    """
+    """Columns of torque or current, by joint."""
 
     names: tuple[str, ...]
-    gains: tuple[float, ...]
-    currents: bool = False
+    gains: tuple[float, ...]  # N m (N) per unit of each joint's column
+    currents: bool = False  # whether they are amperes
 
     @classmethod
     def of(cls, motions: Motions, arm: MovingArm) -> Channels:

@@ -7,13 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_readings import (
-    Samples,
-    beyond_friction,
-    left_in_all,
-    ordinary_columns,
-    read_otherwise,
-)
+from armscope.check.motion_readings import Samples, beyond_friction, left_in_all, ordinary_columns, read_otherwise
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
@@ -22,14 +16,7 @@ from armscope.robot.dynamics import MovingArm
 
 def factors_of(samples: Samples, rigid: Array) -> dict[int, float]:
     """By how many times torques differ from those of masses, beyond friction, of joints where masses explain most.
-
-    Args:
-        samples: N of m joints.
-        rigid: (N, m) N m, of the masses.
-
-    Returns:
-        Of each such joint.
-    """
+    ``samples``: N of m joints; ``rigid``: (N, m) N m, of the masses."""
     factors: dict[int, float] = {}
     for j, (left, asked) in enumerate(beyond_friction(samples, rigid)):
         power = float(asked @ asked)
@@ -47,10 +34,6 @@ def with_a_load(samples: Samples, arm: MovingArm) -> tuple[MovingArm, float] | N
     """The arm with a load that brings all torques to the size of the masses', and the load's kg.
 
     It must suit all joints at once: a single channel in another unit is none.
-
-    Args:
-        samples: differenced over a twentieth of a second.
-        arm: as stated.
 
     Returns:
         None where no torque is far from the masses', or no load explains it, or another unit or order explains more.

@@ -59,17 +59,11 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class OtherReading:
-    """What a table means if it is not what its columns say.
-
-    Attributes:
-        told: in words.
-        samples: as they are then.
-        order: of the channels of torque, by joint; empty as they stand.
-    """
+    """What a table means if it is not what its columns say."""
 
     told: tuple[Suspicion, ...]
-    samples: Samples
-    order: tuple[int, ...] = ()
+    samples: Samples  # as they are then
+    order: tuple[int, ...] = ()  # of the channels of torque, by joint; empty as they stand
 
 
 def ordinary_columns(samples: Samples, j: int) -> Array:
@@ -102,11 +96,8 @@ def explained(samples: Samples, arm: MovingArm) -> float:
 
 
 def read_otherwise(samples: Samples, arm: MovingArm) -> Iterator[OtherReading]:
-    """What the table means if it is not what its columns say: degrees, or another order of the joints.
-
-    Yields:
-        A problem, where the masses explain the torque only if the table is read otherwise.
-    """
+    """What the table means if it is not what its columns say: degrees, or another order of the joints. Yields a
+    problem, where the masses explain the torque only if the table is read otherwise."""
     if len(samples.q) < MOTION.reading_samples or not np.any(arm.inertial):
         return
     few = samples.rows(spread_evenly(len(samples.q), MOTION.reading_rows))

@@ -12,7 +12,6 @@ import numpy as np
 from armscope.check.motion_channels import Channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_links import links_beside_motors
 from armscope.check.motion_load import unstated_load, with_a_load
 from armscope.check.motion_mistakes import mistakes
 from armscope.check.motion_readings import Samples
@@ -26,6 +25,49 @@ from armscope.motion.samples.timing import gaps, mended_rows
 from armscope.motion.samples.turns import counted_on, leaps
 from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
+
+
+def links_beside_motors(motions: Motions) -> Iterator[Suspicion]:
+    """What is wrong with links' positions, joint by joint; the position of another joint is told as that."""
+    if motions.link is None:
+        return
+    for j in np.flatnonzero(np.isfinite(motions.link).all(axis=0)).tolist():
+        motor, link = motions.q[:, j], motions.link[:, j]
+        if np.ptp(motor) < MOTION.link_travel:
+            continue
+        factor = float(np.polyfit(motor, link, 1)[0])
+        if abs(factor - 1) <= MOTION.link_factor:
+            continue
+        if (other := _follows(motions, j)) is not None:
+            statement = f"q{j + 1}_link is the position of joint {other + 1}, and not of joint {j + 1}"
+            cure = f"Are columns shifted or exchanged? Call it q{other + 1}_link."
+        else:
+            statement, cure = f"q{j + 1}_link turns {factor:.4g} times as far as q{j + 1}", _guessed(factor)
+        yield Suspicion("problem", statement, cure)
+
+
+def _follows(motions: Motions, j: int) -> int | None:
+    """The other joint that a link's position follows as its own link does, if it is one."""
+    assert motions.link is not None
+    for other in range(motions.n_motors):
+        motor = motions.q[:, other]
+        if other == j or np.ptp(motor) < MOTION.link_travel:
+            continue
+        factor, zero = np.polyfit(motor, motions.link[:, j], 1)
+        missed = float(np.std(motions.link[:, j] - factor * motor - zero))
+        if abs(factor - 1) < MOTION.link_factor and missed < MOTION.link_factor * np.std(motor):
+            return other
+    return None
+
+
+def _guessed(factor: float) -> str:
+    if abs(factor + 1) < MOTION.link_factor:
+        return "It counts the other way: turn its sign."
+    for unit, of in (("degrees", 180 / np.pi), ("radians", np.pi / 180)):
+        if abs(factor / of - 1) < MOTION.link_factor:
+            return f"It is in {unit}: call the column by that unit."
+    other = "the motor's own turns" if abs(factor) < 1 else "another joint's position"
+    return f"Both are positions of the joint, behind the gear; is one of them {other}?"
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,12 +97,8 @@ class MotionCheck(InWords):
 
 
 def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
-    """Look through a table of motions.
-
-    Raises:
-        InputError: time goes back or is in milliseconds, nothing moves, no channel records torque, other joints slide,
-            or currents have no gain.
-    """
+    """Look through a table of motions. Raises InputError: time goes back or is in milliseconds, nothing moves, no
+    channel records torque, other joints slide, or currents have no gain."""
     if arm is not None:
         refuse_other_joints(arm, motions)
         refuse_unknown_gains(arm, motions)

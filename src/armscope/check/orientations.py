@@ -8,19 +8,17 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp
-from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import ORIENTED, Suspicion
 from armscope.core.types import Array
-from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.channel import NOT_THE_TOOLS_RAD, Channel, ChannelResiduals
 from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.orientations import NOT_THE_TOOLS_RAD
 from armscope.recordings import Recordings
 from armscope.verdict.schema import Notice
 
-Reading = tuple[str, str, Callable[[Array], Array]]
-"""What is wrong, how to mend it, and quaternions (N, 4) read so."""
+Reading = tuple[str, str, Callable[[Array], Array]]  # What is wrong, how to mend it, and quaternions (N, 4) read so
 
 
 def _mirrored() -> Iterator[Reading]:

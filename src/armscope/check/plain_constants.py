@@ -4,55 +4,47 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from armscope.core.constants import Constants, constant
+from armscope.core.constants import Constants
 
 
 @dataclass(frozen=True)
 class Leading(Constants):
     """When a column of the side of approach has the wrong sign."""
 
-    standard_errors: float = constant(
-        10.0,
-        "below zero at which play is told as one of the wrong sign",
-        "measured: of 11 simulated tables with such columns two had signs turned round, which were 25 and 94 below; no "
-        "joint of the others was by more than 2",
-    )
-    both_sides: float = constant(
-        1.5, "between two rows' sides from which a joint is approached from both", "derived: sides are -1 and +1"
-    )
+    standard_errors: float = 10.0
+    """below zero at which play is told as one of the wrong sign; measured: of 11 simulated tables with such columns two
+    had signs turned round, which were 25 and 94 below; no joint of the others was by more than 2"""
+    both_sides: float = 1.5
+    """between two rows' sides from which a joint is approached from both; derived: sides are -1 and +1"""
 
 
 @dataclass(frozen=True)
 class PlainFit(Constants):
     """How what joints turn by is fitted beside a plain arm's errors."""
 
-    rank: float = constant(1e-9, "share of the largest, below which a direction is rounding", "judgement: far above it")
-    apart: float = constant(
-        1e6, "condition beyond which joints are not told apart", "judgement: a part in a thousand of each is left"
-    )
+    rank: float = 1e-9
+    """share of the largest, below which a direction is rounding; judgement: far above it"""
+    apart: float = 1e6
+    """condition beyond which joints are not told apart; judgement: a part in a thousand of each is left"""
 
 
 @dataclass(frozen=True)
 class Settling(Constants):
     """When rows are told in which the arm had not come to rest."""
 
-    rows: int = constant(600, "that are looked at", "judgement: what most rows show needs few; time", unit="rows")
-    moves_rad: float = constant(0.02, "between rows (RMS), from which a joint moves", "judgement: a degree", unit="rad")
-    standard_errors: float = constant(
-        8.0, "of a share that is told", "judgement: what a plain arm does not have is in them, too"
-    )
-    nats: float = constant(
-        20.0,
-        "by which what is left follows the motion rather than its side",
-        "judgement: play of a joint that was not recorded has the side",
-        unit="nats",
-    )
-    times_noise: float = constant(
-        3.0, "beyond which what the law leaves is told to be more than noise", "judgement: a plain arm's rest is in it"
-    )
-    most: float = constant(
-        0.5, "of what a plain arm leaves (mean square), below which it is no hint", "judgement: most of it"
-    )
+    rows: int = 600
+    """that are looked at [rows]; judgement: what most rows show needs few; time"""
+    moves_rad: float = 0.02
+    """between rows (RMS), from which a joint moves [rad]; judgement: a degree"""
+    standard_errors: float = 8.0
+    """of a share that is told; judgement: what a plain arm does not have is in them, too"""
+    nats: float = 20.0
+    """by which what is left follows the motion rather than its side [nats]; judgement: play of a joint that was not
+    recorded has the side"""
+    times_noise: float = 3.0
+    """beyond which what the law leaves is told to be more than noise; judgement: a plain arm's rest is in it"""
+    most: float = 0.5
+    """of what a plain arm leaves (mean square), below which it is no hint; judgement: most of it"""
 
 
 LEADING = Leading()

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from armscope.calibration.geometry import Posed, State
 from armscope.calibration.model import set_up
-from armscope.calibration.state import Posed, State
 from armscope.check.plain_constants import PLAIN
 from armscope.core.types import Array, Indices
 from armscope.recordings import Recordings
@@ -16,21 +16,13 @@ from armscope.robot import Arm, position_jacobian
 
 @dataclass(frozen=True, eq=False)
 class FittedTurns:
-    """Columns fitted beside a plain arm's errors.
+    """Columns fitted beside a plain arm's errors."""
 
-    Attributes:
-        values: (c,) of the columns.
-        stderrs: (c,) of the values.
-        left: mean square of what is left, m^2.
-        before: the same without the columns.
-        free: how many numbers are free.
-    """
-
-    values: Array
-    stderrs: Array
-    left: float
-    before: float
-    free: int
+    values: Array  # (c,) of the columns
+    stderrs: Array  # (c,) of the values
+    left: float  # mean square of what is left, m^2
+    before: float  # the same without the columns
+    free: int  # how many numbers are free
 
 
 class PlainErrors:

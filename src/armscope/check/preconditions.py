@@ -32,11 +32,8 @@ class Checked:
 
 
 def check_table(arm: Arm, recordings: Recordings) -> Checked:
-    """Leave out rows that can't be measurements; say what the table can't show.
-
-    Raises:
-        InputError: the table doesn't fit the arm, or holds no usable rows.
-    """
+    """Leave out rows that can't be measurements; say what the table can't show. Raises InputError: the table doesn't
+    fit the arm, or holds no usable rows."""
     recordings.check_motors(arm.name, arm.n_motors)
     if not len(recordings):
         raise InputError(recordings.source, "", "0 rows", "at least four poses are needed")

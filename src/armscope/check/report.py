@@ -11,14 +11,7 @@ from armscope.check.constants import TABLE
 from armscope.check.contents import Contents, Context, RunContents, contents_of
 from armscope.check.enough_rows import still, too_few
 from armscope.check.quantities import of_quantities
-from armscope.check.suspicion import (
-    BESIDE,
-    SAYS_MORE,
-    TOO_SHORT,
-    Suspicion,
-    first_of_suspicions,
-    verdict_lines,
-)
+from armscope.check.suspicion import BESIDE, SAYS_MORE, TOO_SHORT, Suspicion, first_of_suspicions, verdict_lines
 from armscope.check.suspicions import Consistency, against_arm
 from armscope.check.targets import named_row_by_row
 from armscope.core.files import plain_values
@@ -93,7 +86,6 @@ def what_forbids(recordings: Recordings, arm: Arm) -> tuple[Suspicion, ...]:
 
     Args:
         recordings: the table, of as many motors as the arm has.
-        arm: the robot it should belong to.
 
     Returns:
         Its problems, whether it is another model's, and whether gravity or sides of approach seem to be turned round.

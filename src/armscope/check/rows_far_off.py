@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from armscope.calibration.fit import robust_least_squares
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp, set_up
-from armscope.calibration.state import State
 from armscope.check.constants import TRIALS
 from armscope.check.suspicion import Suspicion
 from armscope.core.grouping import same_configuration
@@ -106,15 +106,7 @@ def _targets_read(rows: SetUp, state: State, far: Indices, near: float) -> Array
 
 
 def on_the_tool(rows: SetUp, state: State) -> Array:
-    """Where each measured point is in the tool's frame, by base and tools as they are placed.
-
-    Args:
-        rows: N rows.
-        state: of base, tools and constants.
-
-    Returns:
-        (N, 3) m.
-    """
+    """Where each measured point is in the tool's frame, by base and tools as they are placed. Returns (N, 3) m."""
     turned = np.einsum("nji,nj->ni", state.rotations[rows.base], rows.residuals(state))
     return np.asarray(np.einsum("nji,nj->ni", rows.nominal_frames.tool_rotation, turned) + state.tools[rows.tool])
 

@@ -9,14 +9,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.calibration.state import State
+from armscope.calibration.geometry import State
 from armscope.check.plain_constants import SETTLING
 from armscope.check.plain_errors import FittedTurns, PlainErrors
 from armscope.check.suspicion import SETTLED, Suspicion
-from armscope.core.numerals import rounded
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, rounded
 from armscope.measurement.noise import known_noise
 from armscope.recordings import Recordings
 from armscope.recordings.motion import last_moves

@@ -8,23 +8,18 @@ from typing import Literal
 
 from armscope.core.inputs import InputError
 
-GRAVITY = "gravity"
-"""Kind of a suspicion about which way gravity is stated to point."""
+GRAVITY = "gravity"  # Kind of a suspicion about which way gravity is stated to point
 
-APPROACH = "approach"
-"""Kind of a suspicion about the sign of a column of the side of approach."""
+APPROACH = "approach"  # Kind of a suspicion about the sign of a column of the side of approach
 
-SETTLED = "settling"
-"""Kind of a suspicion that angles and points were not taken at one moment."""
+SETTLED = "settling"  # Kind of a suspicion that angles and points were not taken at one moment
 
 ORIENTED = "orientations"
 """Kind of a suspicion about measured orientations: nobody needs them, and what is not the tool's is left out."""
 
-BESIDE = (GRAVITY, APPROACH, SETTLED, ORIENTED)
-"""Kinds of what stands above a diagnosis, which is made all the same."""
+BESIDE = (GRAVITY, APPROACH, SETTLED, ORIENTED)  # Kinds of what stands above a diagnosis, which is made all the same
 
-TOO_SHORT = "too short"
-"""Kind of a problem with which nothing can be diagnosed, whatever a user asks for."""
+TOO_SHORT = "too short"  # Kind of a problem with which nothing can be diagnosed, whatever a user asks for
 
 
 @dataclass(frozen=True)

@@ -12,17 +12,15 @@ from typing import Any
 import numpy as np
 
 from armscope.calibration.fit import placed, robust_least_squares
+from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp, set_up
-from armscope.calibration.state import State
 from armscope.check.approach import leading_joints
 from armscope.check.common_mistakes import MIRRORED, Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
-from armscope.check.nominal_arms import better_arm
-from armscope.check.payload import payload_at_the_flange
 from armscope.check.rows_far_off import rows_far_off
 from armscope.check.settling import not_at_rest
-from armscope.check.stated_tool import tool_stated_otherwise
+from armscope.check.stated_arm import better_arm, payload_at_the_flange, tool_stated_otherwise
 from armscope.check.suspicion import Suspicion
 from armscope.check.targets import named_row_by_row, two_reflectors
 from armscope.core.averages import rms_distance
@@ -236,11 +234,7 @@ def _all_tried(arm: Arm, table: Recordings) -> list[tuple[float, Trial]]:
 
 
 def _moved_tools(arm: Arm, table: Recordings, explains: bool = False) -> list[Suspicion]:
-    """Whether a target that several runs share sits elsewhere on the flange in some of them.
-
-    Args:
-        explains: only where tools of their own explain the points.
-    """
+    """Whether a target that several runs share sits elsewhere on the flange in some of them."""
     if len(np.unique(table.run)) < 2:
         return []
     from armscope.fitting.exchanged_tool import exchanged_tool  # as above

@@ -17,8 +17,7 @@ from armscope.core.types import Array
 from armscope.recordings import Recordings, numbered_points
 from armscope.robot import Arm
 
-TWO_REFLECTORS = "two reflectors"
-"""Kind of a suspicion that points of one target are of two."""
+TWO_REFLECTORS = "two reflectors"  # Kind of a suspicion that points of one target are of two
 
 
 def named_row_by_row(recordings: Recordings) -> list[Suspicion]:

@@ -26,8 +26,8 @@ from armscope.cli import (
     recordings,
     sweep,
 )
+from armscope.cli.commands import EXPERIMENTS
 from armscope.cli.endings import endings
-from armscope.cli.panels import EXPERIMENTS
 
 app = typer.Typer(
     name="armscope",

@@ -121,13 +121,7 @@ def calibrate(
     if not consistency.orientations and not orientation:  # and it was said
         table = replace(table, orientation=None)
     fit = functools.partial(
-        calibrated,
-        arm,
-        table,
-        robust=robust,
-        one_base=one_base,
-        tool_per_run=tool_per_run,
-        orientation=orientation,
+        calibrated, arm, table, robust=robust, one_base=one_base, tool_per_run=tool_per_run, orientation=orientation
     )
     calibration = fit(level, splits=splits)
     if calibration.doubts and not anyway:

@@ -22,13 +22,15 @@ from armscope.core.outputs import Delivery
 from armscope.core.parallel import processes
 from armscope.core.streams import is_stream, pipes_kept
 
+EXPERIMENTS = "Experiments (the workflow calls these)"
+
+
 OUTPUTS = ("output", "figure", "points", "visible", "sealed")
 """Parameters of this name are files or folders to write, and those marked `WRITTEN`; all other paths are read."""
 WRITTEN = object()
 ALIKE, SOMEHOW_ALIKE = 0.7, 0.5
 """Likeness (0 to 1) from which a name is taken for a misspelt one: any, and one with the same ending."""
-NOMINAL = ("robot", "nominal")
-"""Parameters of this name are an arm: a file, or a name in the library."""
+NOMINAL = ("robot", "nominal")  # Parameters of this name are an arm: a file, or a name in the library
 WORKBOOKS = (".xlsx", ".xls", ".xlsm", ".ods")
 
 Output = Annotated[Path, typer.Option("--output", "-o", help="file or folder to write")]
@@ -108,7 +110,11 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
     def deliver(force: bool, values: dict[str, Any]) -> None:
         reads = _paths(value for name, value in values.items() if name not in outputs)
         for name, value in values.items():
-            absent = [path for path in _paths([value] if name not in outputs else []) if _is_absent(path)]
+            absent = [
+                path
+                for path in _paths([value] if name not in outputs else [])
+                if not (path.exists() or is_stream(path))
+            ]
             arms = name in NOMINAL
             _refuse_absent([path for path in absent if not (arms and _in_library(path))], _help(hints[name]), arms)
         writes = _paths(value for name, value in values.items() if name in outputs)
@@ -131,10 +137,7 @@ def _delivering(function: Callable[..., Any], command: str) -> Callable[..., Any
 
 def _refuse_endless(values: dict[str, Any]) -> None:
     """Numbers of options are finite: click lets "nan" pass where there is no bound, and "inf" below a lower one.
-
-    Raises:
-        InputError: one is not.
-    """
+    Raises InputError: one is not."""
     for name, value in values.items():
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(f"--{name.replace('_', '-')}", "", value, "a finite number is needed here")
@@ -162,16 +165,8 @@ def _help(hint: Any) -> str:
 
 
 def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
-    """What is to be read must be there: said before a command imports what it works with.
-
-    Args:
-        paths: what is not there.
-        needed: what it should be.
-        arms: whether a name of the library would do.
-
-    Raises:
-        InputError: there is one.
-    """
+    """What is to be read must be there: said before a command imports what it works with. Raises InputError: there
+    is one."""
     for path in paths:
         alike = _named_like(path, arms)
         cure = f"Did you mean {alike!r}?" if alike else "No such file or directory."
@@ -184,15 +179,8 @@ def _refuse_absent(paths: list[Path], needed: str, arms: bool) -> None:
 
 
 def _refuse_file(paths: list[Path], needed: str) -> None:
-    """What several files go into is no file, and --force makes it none; nor is it standard output.
-
-    Args:
-        paths: where a command writes.
-        needed: what it should be.
-
-    Raises:
-        InputError: a folder is needed, and a file or a stream is there.
-    """
+    """What several files go into is no file, and --force makes it none; nor is it standard output. Raises
+    InputError: a folder is needed, and a file or a stream is there."""
     for path in paths if needed.startswith("folder") else ():
         if is_stream(path):
             rule = f"needed here: {needed}"
@@ -223,19 +211,12 @@ def _arms_of_library() -> list[str]:
 
 
 def _refuse_workbooks(paths: list[Path]) -> None:
-    """A name that says workbook, with CSV inside, is a file that spreadsheets call damaged.
-
-    Raises:
-        InputError: a file has such a name.
-    """
+    """A name that says workbook, with CSV inside, is a file that spreadsheets call damaged. Raises InputError: a
+    file has such a name."""
     for path in paths:
         if path.suffix.lower() in WORKBOOKS:
             cure = f"Call it {path.stem}.csv: spreadsheets open it."
             raise InputError(path, "", f"a workbook's ending {path.suffix}", "no command writes workbooks", cure)
-
-
-def _is_absent(path: Path) -> bool:
-    return not (path.exists() or is_stream(path))
 
 
 def _in_library(robot: Path) -> bool:

@@ -11,7 +11,7 @@ import typer
 from armscope.cli.commands import Commands, NominalArm, Threads
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
-from armscope.core.numerals import or_less
+from armscope.core.words import or_less
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,10 +26,8 @@ if TYPE_CHECKING:
 app = Commands()
 
 MOST_CAUSES = 10
-SEEN_MM = 1e-3
-"""What instruments tell apart at best: what two fits leave may differ by rounding."""
-REFUSED = 3
-"""Exit code where some rows of a path have no command."""
+SEEN_MM = 1e-3  # What instruments tell apart at best: what two fits leave may differ by rounding
+REFUSED = 3  # Exit code where some rows of a path have no command
 
 
 @app.command()
@@ -125,7 +123,7 @@ def fit_error_model(
         raise InputError("--products", "", f"--method {method} --regions {regions}", "least squares, one region")
     arm, (table,) = arm_and_tables(robot, [recordings])
 
-    from armscope.compensation.error_model_file import save_error_model
+    from armscope.compensation.black_box import save_error_model
     from armscope.compensation.fitting import fit_error_model as fit
     from armscope.compensation.fitting import left_by_frames_alone
 
@@ -156,7 +154,7 @@ def fit_error_model(
 
 def _load(model: Path) -> ErrorModel | FittedModel:
     if model.suffix == ".json":
-        from armscope.compensation.error_model_file import load_error_model
+        from armscope.compensation.black_box import load_error_model
 
         return load_error_model(model)
     from armscope.physics.model_file import load_model

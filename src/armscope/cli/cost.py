@@ -9,20 +9,16 @@ from pathlib import Path
 
 from armscope.recordings.first_lines import estimated_rows
 
-LONG_ROWS = 300_000
-"""A shorter table is done before anybody asks."""
+LONG_ROWS = 300_000  # A shorter table is done before anybody asks
 
 
 @dataclass(frozen=True)
 class Cost:
-    """CPU time and memory of a command, of tables as `python -m benchmarks.scale` makes them.
+    """CPU time and memory of a command, of tables as `python -m benchmarks.scale` makes them."""
 
-    Attributes:
-        start_s, start_mb: of a short table.
-        row_us, row_kb: of every row beyond.
-    """
-
+    # start_s, start_mb: of a short table
     start_s: float
+    # row_us, row_kb: of every row beyond
     row_us: float
     start_mb: float
     row_kb: float

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-MOST_NAMED = 5
-"""Suspect rows that the console names."""
+MOST_NAMED = 5  # Suspect rows that the console names
 
 PAGES = (
     "report.html", "work-order.html", "zero_offsets.csv", "corrected_dh.csv", "corrected_origins.csv",
@@ -46,8 +45,7 @@ def diagnose(
         int, typer.Option(min=0, help="how often rows are resampled to see which causes stay; 0 saves time")
     ] = 10,
     cross_validation: Annotated[
-        bool,
-        typer.Option(help="repeat the whole diagnosis without a part of the rows, to test it on these (slower)"),
+        bool, typer.Option(help="repeat the whole diagnosis without a part of the rows, to test it on these (slower)")
     ] = True,
     tool_per_run: Annotated[
         bool, typer.Option(help="fit the tool anew in every run: it was taken off in between")
@@ -127,7 +125,7 @@ def diagnose(
     from armscope.compensation.physical import identified_on, save_identified
     from armscope.diagnosis import Settings, write_verdict
     from armscope.diagnosis import diagnose as diagnose_arm
-    from armscope.verdict.promise import promised, rows_it_rests_on
+    from armscope.verdict.diagnosis import promised, rows_it_rests_on
 
     writable(output, DOMAIN)
     settings = Settings(seed, tool_per_run, resamples, cross_validation, estimate_gravity, orientation, floor_mm)
@@ -156,7 +154,7 @@ def _notes(verdict: Verdict, arm: Arm, table: Recordings) -> Iterator[str]:
     """What stands beside the answer: the check's doubts, what makes it impossible, rows that look like bad shots."""
     from armscope.check.enough_rows import rows_needed
     from armscope.check.suspicion import BESIDE
-    from armscope.core.numerals import rounded
+    from armscope.core.words import rounded
     from armscope.verdict.payload_place import of_payloads
     from armscope.verdict.schema import MISLABELLED, TOOL_AS_STATED, TOOL_EXCHANGED
 

@@ -18,20 +18,13 @@ from armscope.core.outputs import OF_THE_DISK
 if TYPE_CHECKING:
     from armscope.verdict.schema import Answer
 
-UNUSABLE = 2
-"""An input or an option can't be used."""
-MISMATCH = 10
-"""`diagnose --exit-code` found that something is missing from the simulation."""
-NO_MEMORY = 71
-"""Memory ran out (EX_OSERR of sysexits.h)."""
-NO_WRITING = 74
-"""A file could not be read or written: a full disk, say (EX_IOERR)."""
-BUSY = 75
-"""Another process writes to the same place; try again later (EX_TEMPFAIL)."""
-INTERRUPTED = 130
-"""Ctrl-C (128 + SIGINT)."""
-CLOSED = 141
-"""Nobody reads standard output any more (128 + SIGPIPE)."""
+UNUSABLE = 2  # An input or an option can't be used
+MISMATCH = 10  # `diagnose --exit-code` found that something is missing from the simulation
+NO_MEMORY = 71  # Memory ran out (EX_OSERR of sysexits.h)
+NO_WRITING = 74  # A file could not be read or written: a full disk, say (EX_IOERR)
+BUSY = 75  # Another process writes to the same place; try again later (EX_TEMPFAIL)
+INTERRUPTED = 130  # Ctrl-C (128 + SIGINT)
+CLOSED = 141  # Nobody reads standard output any more (128 + SIGPIPE)
 
 
 def exit_code_of(answer: Answer) -> int:
@@ -39,10 +32,8 @@ def exit_code_of(answer: Answer) -> int:
     return {"nothing missing": 0, "cannot tell": UNUSABLE}.get(answer, MISMATCH)
 
 
-LEAST_ADDRESSES = 500 * 2**20
-"""Bytes of addresses that a process must be allowed: what interpreter and libraries take."""
-LEAST_DATA = 200 * 2**20
-"""As many of data."""
+LEAST_ADDRESSES = 500 * 2**20  # Bytes of addresses that a process must be allowed: what interpreter and libraries take
+LEAST_DATA = 200 * 2**20  # As many of data
 BLAS_BUFFERS = 80 * 2**20
 """Bytes that the BLAS of NumPy and that of SciPy take when they are first used: 32 MiB each, and their surroundings."""
 

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
 
 app = Commands()
 
-MOST_SAMPLES = 1_000_000
-"""Of a motion: an hour at 250 Hz, which no controller takes as one table."""
+MOST_SAMPLES = 1_000_000  # Of a motion: an hour at 250 Hz, which no controller takes as one table
 
 
 @app.command()
@@ -85,11 +84,7 @@ def excite(
 
 
 def _only_one(robot: Path | None, nominal: Path | None) -> Path:
-    """The arm, by whichever of the two ways it was given.
-
-    Raises:
-        InputError: by none, or by both.
-    """
+    """The arm, by whichever of the two ways it was given. Raises InputError: by none, or by both."""
     if robot is not None and nominal is not None:
         raise InputError("--robot", "", str(nominal), f"one arm; {robot} was given before it", "Leave one of them out.")
     arm = robot or nominal

@@ -24,8 +24,7 @@ def diagnose(
 ) -> None:
     """Diagnose every arm of a fleet, or every n-th of them."""
     from armscope.diagnosis import Settings
-    from armscope.fleet.diagnosing import diagnose_members
-    from armscope.fleet.members import read_fleet
+    from armscope.fleet.members import diagnose_members, read_fleet
 
     members = read_fleet(fleet)[every_nth(part)]
     diagnose_members(members, output, Settings(resamples=0, cross_validation=False))

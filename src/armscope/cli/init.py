@@ -52,11 +52,8 @@ def init(
 
 
 def _refuse_unusable(text: str, output: Path) -> None:
-    """A robot.yaml that no command could read is not written: it is read as they do.
-
-    Raises:
-        InputError: what they would say.
-    """
+    """A robot.yaml that no command could read is not written: it is read as they do. Raises InputError: what they
+    would say."""
     from armscope.core.plainyaml import plain_yaml
     from armscope.robot.arm import build_arm
     from armscope.robot.description_file import described
@@ -106,11 +103,7 @@ def _first_file(what: str, output: Path, tip: str | None, name: str, modified: b
 
 
 def _pasted() -> str:
-    """Standard input as text, whatever its bytes are.
-
-    Raises:
-        InputError: it is no text.
-    """
+    """Standard input as text, whatever its bytes are. Raises InputError: it is no text."""
     content = sys.stdin.buffer.read()
     try:
         return content.decode("utf-16" if content.startswith(UTF_16) else "utf-8-sig")

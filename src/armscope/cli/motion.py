@@ -26,22 +26,15 @@ PAGES = ("report.html", "work-order.html")
 
 @dataclass(frozen=True)
 class MotionOptions:
-    """What a user asks of a diagnosis of a motion.
+    """What a user asks of a diagnosis of a motion."""
 
-    Attributes:
-        cutoff: Hz, or None.
-        held_out, runs: runs that are held out, and runs that are used (none: all).
-        as_json: whether verdict.json is printed in place of words.
-        report: whether the page is written.
-        anyway: go on though the check says that the table is unusable.
-    """
-
-    cutoff: float | None
+    cutoff: float | None  # Hz, or None
+    # held_out, runs: runs that are held out, and runs that are used (none: all)
     held_out: list[str]
     runs: list[str]
-    as_json: bool
-    report: bool
-    anyway: bool
+    as_json: bool  # whether verdict.json is printed in place of words
+    report: bool  # whether the page is written
+    anyway: bool  # go on though the check says that the table is unusable
 
 
 def diagnose_motions(table: Path, robot: Path, output: Path, asked: MotionOptions, tell: Tell) -> Answer:
@@ -112,11 +105,8 @@ def _read_and_checked(table: Path, robot: Path, asked: MotionOptions) -> tuple[M
 
 
 def _arm_and_motions(robot: Path, table: Path) -> tuple[MovingArm, Motions]:
-    """Both, with what was guessed of a URDF said.
-
-    Raises:
-        InputError: one of them can't be used; where motors are too many or few for a tip that was guessed, it says so.
-    """
+    """Both, with what was guessed of a URDF said. Raises InputError: one of them can't be used; where motors are too
+    many or few for a tip that was guessed, it says so."""
     from armscope.cli.robots import tell_guesses
     from armscope.core.inputs import InputError
     from armscope.recordings.motions import OtherMotors, read_motions
@@ -138,11 +128,8 @@ def _arm_and_motions(robot: Path, table: Path) -> tuple[MovingArm, Motions]:
 
 
 def predicted_motions(model: Path, motions: Path) -> tuple[pd.DataFrame, list[str]] | None:
-    """Torques of a table of motions, and notes; None where the model is of another kind.
-
-    Raises:
-        InputError: the model is of a motion, and it or the table can't be used.
-    """
+    """Torques of a table of motions, and notes; None where the model is of another kind. Raises InputError: the
+    model is of a motion, and it or the table can't be used."""
     from armscope.core.inputs import read_yaml
     from armscope.robot.urdf_file import is_xml
 

@@ -31,8 +31,7 @@ def worlds(
 
 @app.command()
 def diagnose(
-    folder: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and motions.csv of each")],
-    output: Output,
+    folder: Annotated[Path, typer.Argument(help="folder of worlds: robot.yaml and motions.csv of each")], output: Output
 ) -> None:
     """Diagnose every world of a folder and predict its test path, each by its visible files alone."""
     from armscope.proof.motion.diagnosing import diagnose_worlds

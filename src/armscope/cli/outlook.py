@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.cli.panels import EXPERIMENTS
+from armscope.cli.commands import EXPERIMENTS, Commands
 from armscope.cli.studies import model_named
 from armscope.core.inputs import InputError
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from armscope.errormodels.extended import ModelSet
+    from armscope.errormodels.fitted import ModelSet
     from armscope.paper.measurements import Measurements
     from armscope.robot import Arm
 
@@ -120,7 +119,7 @@ def cross_table_(
 
 def _model_set(plain: Sequence[str], products: Sequence[str] | None, regions: Sequence[str] | None) -> ModelSet:
     """Models by their names; regions as in "FDP(CI)=4"."""
-    from armscope.errormodels.extended import ModelSet
+    from armscope.errormodels.fitted import ModelSet
 
     divided = []
     for text in regions or ():

@@ -41,7 +41,7 @@ def measure(
     from armscope.cli.paper_settings import MeasureSettings
     from armscope.core.files import write_table
     from armscope.paper.enough_poses import enough_poses
-    from armscope.paper.study import measured
+    from armscope.paper.virtual import measured
     from armscope.robot import load_arm
 
     plan = plan_of(parsed(MeasureSettings, settings), load_arm(robot))
@@ -141,7 +141,7 @@ def table2_(
 ) -> None:
     """Table 2: the first robot's errors that are left over, beside the printed ones and those of its ensemble."""
     from armscope.core.files import write_table
-    from armscope.paper.table2 import table2
+    from armscope.paper.beside_printed import table2
 
     table = table2(read_residuals(residuals))
     of_printed = [name for name in table.columns if name == "printed" or name.endswith("_ratio")]
@@ -152,7 +152,7 @@ def table2_(
 def coefficients(fits: Fits, output: Output) -> None:
     """The fitted coefficients of one robot, beside Eqs. (9)-(20)."""
     from armscope.core.files import write_table
-    from armscope.paper.coefficients import coefficient_table
+    from armscope.paper.beside_printed import coefficient_table
 
     write_table(output, coefficient_table(read_fits(fits)), digits=6)
 
@@ -161,7 +161,7 @@ def coefficients(fits: Fits, output: Output) -> None:
 def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
     """Hold the robots against printed numbers that anchoring did not use."""
     from armscope.core.files import write_table
-    from armscope.paper.cross_check import cross_check
+    from armscope.paper.beside_printed import cross_check
 
     write_table(output, cross_check(read_residuals(residuals), read_fits(*fits)), digits=5)
 
@@ -170,17 +170,14 @@ def cross_check_(residuals: Residuals, fits: ManyFits, output: Output) -> None:
 def sub_volumes_(poses: Poses, errors: ManyErrors, output: Output) -> None:
     """What one model for each of several regions of the workspace leaves of the errors."""
     from armscope.core.files import write_table
-    from armscope.paper.sub_volumes import sub_volumes
+    from armscope.paper.outlook import sub_volumes
 
     write_table(output, sub_volumes(read_measurements(poses, *errors)), digits=6)
 
 
 @app.command("outlook")
 def outlook_(
-    poses: Poses,
-    errors: ManyErrors,
-    output: Output,
-    seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0,
+    poses: Poses, errors: ManyErrors, output: Output, seed: Annotated[int, typer.Option(min=0, help="of the folds")] = 0
 ) -> None:
     """What blended sub-volumes and products between inputs leave of the errors, chosen by cross-validation."""
     from armscope.core.files import write_table
@@ -193,7 +190,7 @@ def outlook_(
 def reading_(poses: Poses, output: Output) -> None:
     """Read the printed Eqs. (15)-(17) as a rigid motion, a scale and a rest."""
     from armscope.core.files import read_table, write_table
-    from armscope.paper.reading import reading
+    from armscope.paper.printed import reading
 
     table = read_table(poses, ["trajectory", "x_mm", "y_mm", "z_mm"], "the table poses.csv of a study")
     identification = table[table["trajectory"] == "identification"]
@@ -205,7 +202,7 @@ def convergence(poses: Poses, errors: Errors, settings: Settings, output: Output
     """Compare the velocity updates: which reaches the least-squares optimum, and when."""
     from armscope.cli.paper_settings import SwarmStudySettings, specs_of, swarm_settings_of
     from armscope.core.files import write_table
-    from armscope.paper.convergence import convergence as histories
+    from armscope.paper.method import convergence as histories
 
     chosen = parsed(SwarmStudySettings, settings)
     measurements = read_measurements(poses, errors)

@@ -109,11 +109,7 @@ def judge_(
     from armscope.paper.evidence import gather
 
     measurements = read_measurements(poses, *errors)
-    tables = {
-        "sub_volumes": read_table(sub_volumes),
-        "outlook": read_table(outlook),
-        "poses": read_table(enough_poses),
-    }
+    tables = {"sub_volumes": read_table(sub_volumes), "outlook": read_table(outlook), "poses": read_table(enough_poses)}
     judged, robots = judge_claims(gather(measurements, read_fits(*fits), read_fits(*as_printed), tables, tell))
     write_table(output, judged, digits=5)
     write_table(per_robot, robots, digits=5)
@@ -155,10 +151,7 @@ def why_(
 
 
 @app.command("audit")
-def audit_(
-    output: Annotated[Path, typer.Option("--output", "-o", help="audit.csv")],
-    settings: Settings,
-) -> None:
+def audit_(output: Annotated[Path, typer.Option("--output", "-o", help="audit.csv")], settings: Settings) -> None:
     """Whether the printed table, equations and trajectories can all be true."""
     from armscope.cli.paper_plans import audit_scope_of
     from armscope.cli.paper_settings import AuditSettings

@@ -91,9 +91,8 @@ def report(
     """One page that shows what the paper claimed, what holds, and what is assumed."""
     from armscope.cli.paper_settings import ReportSettings
     from armscope.core.files import read_table
-    from armscope.report.pages.paper import PaperPage, write_table2
+    from armscope.report.pages.paper import Outlook, PaperPage, ReproducedArm, write_table2
     from armscope.report.pages.paper_field import error_field
-    from armscope.report.pages.paper_outlook import Outlook, ReproducedArm
     from armscope.robot import load_arm
 
     chosen = parsed(ReportSettings, settings)

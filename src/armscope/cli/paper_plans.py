@@ -19,10 +19,9 @@ from armscope.core.config import Sensitivity, Tracker
 from armscope.paper.audit_scope import AuditScope
 from armscope.paper.scenarios import Scenario, Varied, check_reach, scenarios
 from armscope.paper.sensitivity import Fitting
-from armscope.paper.study import Sizes, StudyPlan
-from armscope.paper.virtual import PlannedPaths, PlannedPoses
+from armscope.paper.virtual import PlannedPaths, PlannedPoses, Sizes, StudyPlan
 from armscope.robot import Arm, load_arm
-from armscope.world.tracker import Tracker as VirtualTracker
+from armscope.world.of_the_paper import Tracker as VirtualTracker
 
 
 def plan_of(settings: MeasureSettings, arm: Arm, robots: int | None = None) -> StudyPlan:
@@ -80,14 +79,8 @@ def scenarios_of(settings: ReachSettings, arm: Arm) -> list[Scenario]:
 
 
 def follow_all(robot: Path | str, settings: Path | str) -> pd.DataFrame:
-    """Follow the test paths of a study and of all its scenarios.
-
-    Returns:
-        See `armscope.paper.scenarios.check_reach`.
-
-    Raises:
-        InputError: a point that can't be reached; it names scenario, arm, path, point and reason.
-    """
+    """`armscope.paper.scenarios.check_reach` of a study and of all its scenarios. Raises InputError: a point that can't
+    be reached; it names scenario, arm, path, point and reason."""
     chosen, arm = parsed(ReachSettings, str(settings)), load_arm(robot)
     varied = [(f"{each.factor}: {each.level}", each.plan) for each in scenarios_of(chosen, arm)]
     return check_reach([("configured study", plan_of(chosen, arm)), *varied])

@@ -80,7 +80,7 @@ def poses(
 
 
 def _tell(choice: Choice, source: str, noise: float) -> None:
-    from armscope.poses.body_words import surroundings_notes
+    from armscope.poses.obstacles import surroundings_notes
 
     pool = choice.candidates
     refused = ", ".join(f"{reason} {count}" for reason, count in pool.refused.items() if count)

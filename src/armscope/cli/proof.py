@@ -67,8 +67,7 @@ def diagnose(
 
 @app.command()
 def score(
-    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")],
-    output: Output,
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")], output: Output
 ) -> None:
     """Unseal the truth, compare it with the verdicts, and write tables of cases and of rates."""
     from armscope.core.files import write_table

@@ -10,7 +10,44 @@ import typer
 
 from armscope.cli.commands import Commands, Output
 from armscope.cli.studies import Settings, parsed, read_seed
-from armscope.core.inputs import InputError, folder_of
+from armscope.core.inputs import InputError, Strict, folder_of
+
+
+class PlantSettings(Strict):
+    """`armscope real plant`: which rows of which arm, what is concealed in them, and how large."""
+
+    seed: int
+    title: str
+    run: str | None
+    first_id: int | None
+    most_rows: int
+    effects: tuple[str, ...]
+    sizes: tuple[float, ...]
+
+
+class PagedArm(Strict):
+    """A set on the page of real arms."""
+
+    name: str
+    title: str
+    folder: str
+    reference: str
+    run: str | None
+    first_id: int | None
+
+
+class PageSettings(Strict):
+    """`armscope real page`: which arms."""
+
+    arms: tuple[PagedArm, ...]
+
+
+class ConcealedSettings(Strict):
+    """`armscope real concealed`: the tables of the concealment, and what to call each arm."""
+
+    proof: str
+    titles: dict[str, str]
+
 
 app = Commands("real", no_args_is_help=True)
 Of = Annotated[str, typer.Option(help="what the results are of: 'commit ...'")]
@@ -57,18 +94,13 @@ def protocol(
 
 
 @app.command()
-def regions(
-    recordings: Recorded,
-    robot: ItsRobot,
-    reference: Stated,
-    output: Output,
-) -> None:
+def regions(recordings: Recorded, robot: ItsRobot, reference: Stated, output: Output) -> None:
     """Foretell whole regions that took no part: the last rows, the farthest, the highest, those on one side."""
     import pandas as pd
 
     from armscope.core.files import write_table
+    from armscope.real.protocol import measure_regions
     from armscope.real.reference import load_reference
-    from armscope.real.regions import measure_regions
     from armscope.recordings import read_recordings
     from armscope.robot import load_arm
 
@@ -123,9 +155,9 @@ def plant(
     seed_file: Annotated[Path | None, typer.Option(help="as `armscope proof seed` writes it; for fresh places")] = None,
 ) -> None:
     """Conceal known effects in real recordings: what may be seen, and the truth in an archive of its own."""
+    from armscope.cli.real import PlantSettings
     from armscope.real.making import Places, make_altered, make_original, make_withheld
     from armscope.real.prepared_recordings import of_run, prepared_recordings, with_payload
-    from armscope.real.settings import PlantSettings
     from armscope.recordings.textfile import read_text_table
     from armscope.robot import load_arm
     from armscope.verdict.files import read_verdict
@@ -152,8 +184,7 @@ def plant(
 
 @app.command()
 def score(
-    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")],
-    output: Output,
+    folder: Annotated[Path, typer.Argument(help="folder with visible, sealed, verdicts and seen")], output: Output
 ) -> None:
     """Unseal what was concealed in real recordings, compare it with the verdicts, and write tables."""
     from armscope.core.files import write_table
@@ -180,7 +211,7 @@ def report(
     import pandas as pd
 
     from armscope.report.figures.real_proof import draw_all
-    from armscope.report.pages.real_proof import write_real_proof_page
+    from armscope.report.pages.real_concealed import write_real_proof_page
     from armscope.report.style import save_figure
 
     named = json.loads(titles)
@@ -200,9 +231,9 @@ def page(
     """Write what is wrong with each real arm, from results, with one figure each."""
     import pandas as pd
 
+    from armscope.cli.real import PageSettings
     from armscope.core.files import copy_file
     from armscope.real.curves import shared
-    from armscope.real.settings import PageSettings
     from armscope.report.figures.compliances import draw_compliances
     from armscope.report.figures.learned_curves import draw_shared_curves
     from armscope.report.figures.protocol import draw_protocol
@@ -226,12 +257,10 @@ def page(
 
 @app.command()
 def concealed(
-    output: Annotated[Path, typer.Argument(help="the page, docs/real-concealed.md")],
-    settings: Settings,
-    of: Of,
+    output: Annotated[Path, typer.Argument(help="the page, docs/real-concealed.md")], settings: Settings, of: Of
 ) -> None:
     """Write how often known effects were found that were concealed in recordings of real arms, from results."""
-    from armscope.real.settings import ConcealedSettings
+    from armscope.cli.real import ConcealedSettings
     from armscope.report.pages.real_concealed import write_concealment
 
     chosen = parsed(ConcealedSettings, settings)

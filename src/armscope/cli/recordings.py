@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from armscope.cli.commands import Commands
-from armscope.cli.panels import EXPERIMENTS
+from armscope.cli.commands import EXPERIMENTS, Commands
 
 app = Commands()
 

@@ -14,11 +14,7 @@ if TYPE_CHECKING:
 
 
 def robot_of(path: Path) -> Arm:
-    """The arm of a robot.yaml or a URDF; guesses about a URDF are said.
-
-    Raises:
-        InputError: it can't be used.
-    """
+    """The arm of a robot.yaml or a URDF; guesses about a URDF are said. Raises InputError: it can't be used."""
     return arm_and_tables(path, [])[0]
 
 
@@ -73,11 +69,7 @@ def tell_guesses(robot: Path, description: RobotDescription) -> None:
 
 
 def table_of(path: Path, n_motors: int | None = None) -> Recordings:
-    """The recordings of a table, with what was passed over said.
-
-    Raises:
-        InputError: it can't be used.
-    """
+    """The recordings of a table, with what was passed over said. Raises InputError: it can't be used."""
     from armscope.recordings import read_recordings
 
     table = read_recordings(path, n_motors)

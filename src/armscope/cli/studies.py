@@ -31,11 +31,7 @@ ManyFits = Annotated[list[Path], typer.Option("--fits", help="fits of the robot 
 
 
 def parsed(model: type[Model], settings: str) -> Model:
-    """Settings given as a JSON file, or as its text.
-
-    Raises:
-        InputError: no JSON, or not what the step needs.
-    """
+    """Settings given as a JSON file, or as its text. Raises InputError: no JSON, or not what the step needs."""
     source, text = "--settings", settings
     if not settings.lstrip().startswith("{"):
         source = settings
@@ -53,11 +49,8 @@ def parsed(model: type[Model], settings: str) -> Model:
 
 
 def every_nth(part: str) -> slice:
-    """Which of many things a part like "0/4" takes: the first of four and every fourth after it.
-
-    Raises:
-        InputError: no part.
-    """
+    """Which of many things a part like "0/4" takes: the first of four and every fourth after it. Raises InputError:
+    no part."""
     number, _, parts = part.partition("/")
     if not (number.isdecimal() and parts.isdecimal() and int(number) < int(parts)):
         raise InputError("--part", "", part, "a number from 0, a slash and how many parts there are: 0/4 ... 3/4")
@@ -65,20 +58,13 @@ def every_nth(part: str) -> slice:
 
 
 def worlds_in(folder: Path) -> list[Path]:
-    """The worlds of a folder, each a folder.
-
-    Raises:
-        InputError: there is no such folder.
-    """
+    """The worlds of a folder, each a folder. Raises InputError: there is no such folder."""
     return sorted(path for path in folder_of(folder, "worlds").iterdir() if path.is_dir() and path.name[0] != ".")
 
 
 def read_seed(path: Path) -> dict[str, Any]:
-    """The seed of a proof: proof_seed, and whether it was drawn.
-
-    Raises:
-        InputError: `armscope proof seed` has not written it.
-    """
+    """The seed of a proof: proof_seed, and whether it was drawn. Raises InputError: `armscope proof seed` has not
+    written it."""
     from armscope.core.files import read_json
 
     content = read_json(path, "the file of `armscope proof seed`")
@@ -176,11 +162,7 @@ def model_named(name: str) -> ModelSpec:
 
 
 def size_of(text: str) -> Literal["small", "full"]:
-    """Which proof.
-
-    Raises:
-        InputError: neither small nor full.
-    """
+    """Which proof. Raises InputError: neither small nor full."""
     if text == "small":
         return "small"
     if text == "full":

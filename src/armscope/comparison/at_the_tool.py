@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.comparison.dispersion import Possible
+from armscope.comparison.scoring import Possible
 from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 

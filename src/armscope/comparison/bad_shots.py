@@ -13,23 +13,18 @@ import numpy as np
 
 from armscope.comparison.constants import COMPARING, SHARED
 from armscope.comparison.penalised import HeldColumns
-from armscope.core.numerals import rounded
 from armscope.core.types import Array, Indices
+from armscope.core.words import rounded
 from armscope.measurement import robust
 from armscope.measurement.constants import WEIGHTS
 from armscope.recordings import Recordings
 
 
 class Weighed(Protocol):
-    """Recordings whose rows count by weights: `armscope.comparison.shared_model`.
+    """Recordings whose rows count by weights: `armscope.comparison.shared_model`."""
 
-    Attributes:
-        group: (3N,) number of the recording that each is of.
-        weight: (3N,) by which each counts; ``robust``: without what whole recordings count by.
-    """
-
-    group: Indices
-    weight: Array
+    group: Indices  # (3N,) number of the recording that each is of
+    weight: Array  # (3N,) by which each counts; ``robust``: without what whole recordings count by
     robust: Array
 
     def alone(self, number: int) -> Self:
@@ -53,17 +48,12 @@ class Weighed(Protocol):
 
 @dataclass(frozen=True)
 class BadShot:
-    """A row that counts for little.
-
-    Attributes:
-        recording, run, id: which.
-        residual_mm: how far it lies from what the rest of its recording says.
-    """
+    """A row that counts for little."""
 
     recording: str
     run: str
     id: str
-    residual_mm: float
+    residual_mm: float  # how far it lies from what the rest of its recording says
 
     def __str__(self) -> str:
         run = f", {self.run}" if self.run else ""
@@ -72,10 +62,7 @@ class BadShot:
 
 def weigh_rows(model: Weighed) -> None:
     """Rows count by how far each lies from what the others of its recording say, so that no change counts.
-
-    Args:
-        model: what recordings share; one with a recording too short to be fitted alone stays as it is.
-    """
+    ``model``: what recordings share; one with a recording too short to be fitted alone stays as it is."""
     sets = range(model.group[-1] + 1)
     model.trust(np.ones(len(model.group)))
     alone = [model.alone(number) for number in sets]
@@ -119,9 +106,6 @@ def from_the_others(alone: Weighed) -> tuple[Array, Array]:
 
     Of n rows fitted beside their penalties, without row i, e / (1 - h) is left of it, of variance 1 + (h / w) / (1 - h)
     (deletion residuals; Cook and Weisberg 1982, 2.2), in blocks of three.
-
-    Args:
-        alone: one recording.
 
     Returns:
         (N, 3) mm, and (N, 3) in units in which a row of full weight has the noise's variance.

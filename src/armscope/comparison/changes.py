@@ -6,7 +6,7 @@ tool. A change is one effect more in some of the recordings. Its F statistic bes
 chance makes it; the smallest of all, times their number (Bonferroni), is the joint test that nothing changed. While it
 is below the level, those are named that are sure beside each other and explain the rows best together
 (`armscope.comparison.search`). What differs between halves of one recording, where nothing changed, makes all of them
-less sure (`armscope.comparison.dispersion`).
+less sure (`armscope.comparison.scoring`).
 """
 
 from __future__ import annotations
@@ -20,20 +20,16 @@ from scipy.special import chdtri, stdtrit
 from armscope.comparison.at_the_tool import moved_mm, taken_back_mm, worse_sigmas
 from armscope.comparison.bad_shots import bad_shots
 from armscope.comparison.constants import COMPARING, SHARED
-from armscope.comparison.dispersion import Possible, Scored
 from armscope.comparison.flange_load import ANOTHER_LOAD
-from armscope.comparison.gained import more_or_less, more_sigmas
-from armscope.comparison.levels import own_values
+from armscope.comparison.gained import more_or_less, more_sigmas, own_values, seen, stands
 from armscope.comparison.measured_points import measured_points
 from armscope.comparison.noisier import along_joints, noisier
 from armscope.comparison.other_load import follows_loads, other_load
 from armscope.comparison.result import SENSE, Change, Comparison, Kind, Left, Sense
-from armscope.comparison.search import likeliest_changes
-from armscope.comparison.seen import seen
+from armscope.comparison.scoring import Possible, Scored
+from armscope.comparison.search import as_steps, likeliest_changes
 from armscope.comparison.sets import left_out_context, of_same_poses, stacked
 from armscope.comparison.shared_model import SharedModel
-from armscope.comparison.standing import stands
-from armscope.comparison.steps import as_steps
 from armscope.comparison.valued import Valued
 from armscope.core.types import Array
 from armscope.physics.effect import Term

@@ -31,10 +31,6 @@ def load_at_the_flange(arm: Arm, table: Recordings) -> Placed | None:
     The mass by itself would need the drives' compliances, which recordings of one load seldom tell; which of them
     turns how, at which pose, needs neither.
 
-    Args:
-        arm: the nominal arm.
-        table: the rows; what payload they state does not matter.
-
     Returns:
         One effect of a number per drive; None where loads were recorded as torques, or masses are not stated.
     """

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Possible
+from armscope.comparison.scoring import Possible
 from armscope.comparison.shared_model import SharedModel
 from armscope.core.types import Array
 from armscope.core.words import enumerated
@@ -24,26 +24,20 @@ from armscope.verdict.wording import decimals_for
 
 @dataclass(frozen=True)
 class MeasuredPoint:
-    """Where a target of a recording sits in the arm's last frame.
+    """Where a target of a recording sits in the arm's last frame."""
 
-    Attributes:
-        recording, target: which; the target is empty where the table names none.
-        point_mm, stderr_mm: its place as `tool_mm` states it, and how sure that is.
-        than: the recording before it that has a target of that name; empty for the first one.
-        moved_mm, interval_95: how far from its place there, and between which distances; NaN for the first one.
-        is_moved: that it surely sits elsewhere than there, by more than a reflector that is put on again.
-        may_be_zero: that it moved about the last joint's axis, as if that joint's zero had.
-    """
-
+    # recording, target: which; the target is empty where the table names none
     recording: str
     target: str
+    # point_mm, stderr_mm: its place as `tool_mm` states it, and how sure that is
     point_mm: tuple[float, ...]
     stderr_mm: tuple[float, ...]
-    than: str = ""
+    than: str = ""  # the recording before it that has a target of that name; empty for the first one
+    # moved_mm, interval_95: how far from its place there, and between which distances; NaN for the first one
     moved_mm: float = math.nan
     interval_95: tuple[float, float] = (math.nan, math.nan)
-    is_moved: bool = False
-    may_be_zero: bool = False
+    is_moved: bool = False  # that it surely sits elsewhere than there, by more than a reflector that is put on again
+    may_be_zero: bool = False  # that it moved about the last joint's axis, as if that joint's zero had
 
     def told(self, also: bool = False) -> str:
         """How far it sits from where it was, as a clause; shorter where another one was told before."""
@@ -103,13 +97,7 @@ def measured_points(model: SharedModel, taken: Sequence[Possible], names: Sequen
 
 
 def _apart(step: Array, covariance: Array, half: float) -> tuple[float, tuple[float, float]]:
-    """How far, and the 95 % interval of that.
-
-    Args:
-        step: (3,) mm.
-        covariance: (3, 3) of it.
-        half: of an interval, in standard errors.
-    """
+    """How far, and the 95 % interval of that. ``step``: (3,) mm; ``covariance``: (3, 3) of it."""
     distance = float(np.linalg.norm(step))
     along = step / max(distance, 1e-300)
     error = half * float(np.sqrt(along @ covariance @ along))
@@ -120,7 +108,6 @@ def _about_last_axis(arm: Arm, point: Array, step: Array, within: Array) -> bool
     """Whether a step keeps a point's way along the last joint's axis and its distance from that, as turning it does.
 
     Args:
-        arm: the arm.
         point: (3,) mm in the last frame, before.
         step: (3,) mm.
         within: (3, 3) covariance of the step, times the square of half an interval.

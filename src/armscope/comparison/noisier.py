@@ -14,9 +14,8 @@ import numpy as np
 from scipy.special import chdtri, ndtr
 
 from armscope.comparison.constants import COMPARING, GROWN
-from armscope.core.numerals import size_of
 from armscope.core.types import Array
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.fitting.joint_scatter import find_scatter
 from armscope.verdict.constants import WORDS
 from armscope.verdict.wording import millimetres
@@ -35,23 +34,14 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Noisier:
-    """A recording of which more is left than of another one.
-
-    Attributes:
-        name: of the recording.
-        than: the recording that it is held against.
-        left_mm: what its own fit leaves, per axis, by the median of its rows.
-        usual_mm: the same of the other recording.
-        p: how often chance makes it as much more, all recordings counted.
-        scatter: joints along whose turning it is left, where it has such a place.
-    """
+    """A recording of which more is left than of another one."""
 
     name: str
-    than: str
-    left_mm: float
-    usual_mm: float
-    p: float
-    scatter: tuple[Scatter, ...]
+    than: str  # the recording that it is held against
+    left_mm: float  # what its own fit leaves, per axis, by the median of its rows
+    usual_mm: float  # the same of the other recording
+    p: float  # how often chance makes it as much more, all recordings counted
+    scatter: tuple[Scatter, ...]  # joints along whose turning it is left, where it has such a place
 
     @property
     def told(self) -> str:
@@ -78,19 +68,13 @@ OF_A_JOINT = "Look for what became loose there, and diagnose that recording alon
 
 @dataclass(frozen=True, eq=False)
 class LeftOver:
-    """What is left of a recording.
+    """What is left of a recording."""
 
-    Attributes:
-        alone: (N, 3) mm, base axes: with effects of its own, no cause counts, but few rows are fitted too well.
-        free: how many of the 3N numbers are free then.
-        together: (N, 3) mm: with what all recordings share and what changed, the quiet ones keep the place of the rest.
-        moved: (m, N, 3) tool displacement by each motor, mm/rad.
-    """
-
-    alone: Array
-    free: float
+    alone: Array  # (N, 3) mm, base axes: with effects of its own, no cause counts, but few rows are fitted too well
+    free: float  # how many of the 3N numbers are free then
+    # (N, 3) mm: with what all recordings share and what changed, the quiet ones keep the place of the rest
     together: Array
-    moved: Array
+    moved: Array  # (m, N, 3) tool displacement by each motor, mm/rad
 
     @property
     def variance(self) -> float:

@@ -30,23 +30,14 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True, eq=False)
 class OwnErrors:
-    """Errors of which every arm has its own.
+    """Errors of which every arm has its own."""
 
-    Attributes:
-        columns: (3N, c) what each does, mm in units of what is usual of it; zero in the rows of all other arms.
-        family: (c,) number of the family that it is of: one error at one place.
-        arm: (c,) number of the arm that has it.
-        kind: (families,) number of the kind that each is of.
-        size: (families,) what arms of this type have of it, in units of what is usual.
-        numbers: (families,) from how many numbers that is known.
-    """
-
-    columns: Array
-    family: Indices
-    arm: Indices
-    kind: Indices
-    size: Array
-    numbers: Array
+    columns: Array  # (3N, c) what each does, mm in units of what is usual of it; zero in the rows of all other arms
+    family: Indices  # (c,) number of the family that it is of: one error at one place
+    arm: Indices  # (c,) number of the arm that has it
+    kind: Indices  # (families,) number of the kind that each is of
+    size: Array  # (families,) what arms of this type have of it, in units of what is usual
+    numbers: Array  # (families,) from how many numbers that is known
 
     def weighed(self, weight: Array) -> OwnErrors:
         """The same as rows are weighed, by (3N,)."""

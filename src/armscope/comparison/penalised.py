@@ -14,17 +14,12 @@ from armscope.inference.linear_algebra import lower_cholesky, lower_inverse
 
 @dataclass(frozen=True, eq=False)
 class HeldColumns:
-    """Columns by which rows are fitted, with a penalty on each.
+    """Columns by which rows are fitted, with a penalty on each."""
 
-    Attributes:
-        columns: (n, p).
-        penalty: (p,) on the square of each value.
-        drawn: so many of the first ones have values that are drawn from many alike, of which the penalty knows the
-            size: they are noise of another shape, and take up none of the numbers that are free.
-    """
-
-    columns: Array
-    penalty: Array
+    columns: Array  # (n, p)
+    penalty: Array  # (p,) on the square of each value
+    # so many of the first ones have values that are drawn from many alike, of which the penalty knows the size: they
+    # are noise of another shape, and take up none of the numbers that are free
     drawn: int = 0
 
     @functools.cached_property
@@ -75,11 +70,7 @@ def held_values(rows: Array, base: HeldColumns) -> Array:
 
 
 def variance_left(rows: Array, base: HeldColumns) -> tuple[float, float]:
-    """How much is left of all rows (n,) together.
-
-    Returns:
-        Variance per number, and how many numbers are free.
-    """
+    """How much is left of all rows (n,) together."""
     values = base.inverse.T @ (base.inverse @ (base.columns.T @ rows))
     left = rows - base.columns @ values
     taken_up = 1 - np.sum(base.inverse**2, axis=0) * base.penalty

@@ -12,12 +12,11 @@ from armscope.comparison.constants import COMPARING
 from armscope.comparison.flange_load import ANOTHER_LOAD
 from armscope.comparison.result import Change, Comparison
 from armscope.comparison.valued import Valued
-from armscope.core.numerals import size_of
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.physics.effect import Effect
 from armscope.physics.geometric import JOINT_OFFSET
 from armscope.physics.registry import effect_named
-from armscope.verdict.bars import bars_set_right
+from armscope.verdict.corrections import bars_set_right
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.entries import angle, length
 from armscope.verdict.tasks import with_numbers
@@ -26,32 +25,19 @@ from armscope.verdict.wording import millimetres, read_parameter
 
 @dataclass(frozen=True)
 class Remedy:
-    """What to do, in words.
+    """What to do, in words."""
 
-    Attributes:
-        physics: what the cause is.
-        why: where to look for why it changed.
-        confirm: how to confirm it on the arm.
-        instruction, rule: what is done about it, by how much; and what else can be done.
-    """
-
-    physics: str
-    why: str
-    confirm: str
+    physics: str  # what the cause is
+    why: str  # where to look for why it changed
+    confirm: str  # how to confirm it on the arm
+    # instruction, rule: what is done about it, by how much; and what else can be done
     instruction: str
     rule: str
 
 
 def remedy_of(found: Comparison, change: Change) -> Remedy:
-    """What to do about one change; its numbers are those of the change, not of all that is off.
-
-    Args:
-        found: the comparison.
-        change: one of its changes.
-
-    Returns:
-        The words; empty ones of an effect that is not installed any more.
-    """
+    """What to do about one change; its numbers are those of the change, not of all that is off. Returns the words;
+    empty ones of an effect that is not installed any more."""
     known = ANOTHER_LOAD if change.effect == ANOTHER_LOAD.name else effect_named(change.effect)
     if known is None:
         return Remedy("", _why(found, change), "", "", "")
@@ -178,17 +164,7 @@ def _why(found: Comparison, change: Change) -> str:
 
 
 def _words(known: Effect, location: str, differences: list[Parameter], verb: str) -> dict[str, str]:
-    """What instructions name (`armscope.verdict.tasks`), told of the change.
-
-    Args:
-        known: the effect.
-        location: where.
-        differences: of its parameters.
-        verb: what a zero did.
-
-    Returns:
-        The words by name.
-    """
+    """What instructions name (`armscope.verdict.tasks`), told of the change."""
     by_name = {each.name: each for each in differences}
     words = dict.fromkeys(("zero", "ratio", "soft_turn", "coefficient"), "–")
     words |= {"location": location, "size": "", "jump": "", "correction": "take what changed back in the command"}

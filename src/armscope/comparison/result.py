@@ -12,9 +12,8 @@ from armscope.comparison.measured_points import MeasuredPoint, told_of_points
 from armscope.comparison.noisier import Noisier, told_of
 from armscope.comparison.valued import Valued, number_line
 from armscope.core.files import plain_values
-from armscope.core.numerals import size_of
 from armscope.core.told import InWords
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.verdict.constants import WORDS
 from armscope.verdict.wording import capitalised, places_in_words, spelled
 
@@ -34,41 +33,26 @@ FEW_ARMS = f" Of fewer than {spelled(COMPARING.enough_arms)} arms only one that 
 
 @dataclass(frozen=True)
 class Change:
-    """A cause that is not the same in all recordings.
-
-    Attributes:
-        effect, location, title: what and where.
-        where: the recordings that have it otherwise.
-        against: than these, alike in the other changes of the effect.
-        kind: what became of it.
-        rms_mm: what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb.
-        p: by chance, as often as this or more extreme, for any of all causes that were tried.
-        parameters: in every recording.
-        alternatives: causes that explain the change as well (evidence within 20 to 1).
-        until: the first recording that did not have it any more; empty where it lasts. Arms have no such order.
-        left_mm: what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown.
-        taken_back_mm: the same if the change were taken back. Other errors may make that less or more by chance.
-        variant: which form of the effect it is (play: "approach" or "load"); empty where there is one only.
-        sense: whether there is more of it there or less; empty where these recordings leave it open.
-        worse_sigmas: by how many standard errors ``taken_back_mm`` is the larger one; NaN where unknown.
-    """
+    """A cause that is not the same in all recordings."""
 
     effect: str
     location: str
     title: str
-    where: tuple[str, ...]
-    against: tuple[str, ...]
-    kind: Kind
-    rms_mm: float
-    p: float
+    where: tuple[str, ...]  # the recordings that have it otherwise
+    against: tuple[str, ...]  # than these, alike in the other changes of the effect
+    kind: Kind  # what became of it
+    rms_mm: float  # what the change moves the tool by there, RMS of the 3D distance beyond what frames absorb
+    p: float  # by chance, as often as this or more extreme, for any of all causes that were tried
     parameters: tuple[Valued, ...]
-    alternatives: tuple[str, ...]
-    until: str = ""
+    alternatives: tuple[str, ...]  # causes that explain the change as well (evidence within 20 to 1)
+    until: str = ""  # the first recording that did not have it any more; empty where it lasts. Arms have no such order
+    # what base and tool leave of the recordings that have it otherwise: RMS per axis; NaN where unknown
     left_mm: float = math.nan
+    # the same if the change were taken back. Other errors may make that less or more by chance
     taken_back_mm: float = math.nan
-    variant: str = ""
-    sense: Sense = ""
-    worse_sigmas: float = math.nan
+    variant: str = ""  # which form of the effect it is (play: "approach" or "load"); empty where there is one only
+    sense: Sense = ""  # whether there is more of it there or less; empty where these recordings leave it open
+    worse_sigmas: float = math.nan  # by how many standard errors ``taken_back_mm`` is the larger one; NaN where unknown
 
     @property
     def known_sense(self) -> Sense:
@@ -101,75 +85,47 @@ class Change:
 
 @dataclass(frozen=True)
 class Seen:
-    """How far a joint's zero must move to be seen.
-
-    Attributes:
-        location: the joint.
-        least_rad: of moves of this size a change is named, by this name or another, in `COMPARING.power` of cases;
-            infinite where these rows show none.
-    """
+    """How far a joint's zero must move to be seen."""
 
     location: str
+    # of moves of this size a change is named, by this name or another, in `COMPARING.power` of cases; infinite where
+    # these rows show none
     least_rad: float
 
 
 @dataclass(frozen=True)
 class Left:
-    """What is left of a recording, RMS per axis in mm, on all its rows that could be used.
+    """What is left of a recording, RMS per axis in mm, on all its rows that could be used."""
 
-    Attributes:
-        frames_mm: once base and tool of its own are placed.
-        shared_mm: with what all recordings share, too.
-        changes_mm: with the changes, too.
-    """
-
-    frames_mm: float
-    shared_mm: float
-    changes_mm: float
+    frames_mm: float  # once base and tool of its own are placed
+    shared_mm: float  # with what all recordings share, too
+    changes_mm: float  # with the changes, too
 
 
 @dataclass(frozen=True, repr=False)
 class Comparison(InWords):
-    """What changed.
-
-    Attributes:
-        arm: its name.
-        names: of the recordings, in their order.
-        rows: of each.
-        noise_mm: per axis, of what the shared model and the changes leave.
-        p_nothing_changed: the joint test: how often chance alone gives a cause that differs as much as the most
-            different one, all that were tried counted (Bonferroni).
-        level: below which changes are named.
-        tried: how many causes times places to change were tried.
-        changes: the surest first.
-        same_poses: recordings that cover the same ranges of joints and payload: only among them is a change told.
-        left: what is left of each recording, by what is explained.
-        seen: how far the zero of each joint must move to be seen, where nothing else changed.
-        noisier: recordings of which more is left than of others, whatever is fitted.
-        other_load: that another load at the flange would look like the changes; "" where it would not.
-        of_arms: the recordings are of several arms, and a change is what one of them has otherwise.
-        bad_shots: rows that lie far off whatever is fitted, and count for little.
-        points: where the measured point of each recording sits on the flange.
-        left_out: what only some recordings hold, which is not looked at; "" where there is none.
-    """
+    """What changed."""
 
     arm: str
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # of the recordings, in their order
     rows: tuple[int, ...]
-    noise_mm: float
+    noise_mm: float  # per axis, of what the shared model and the changes leave
+    # the joint test: how often chance alone gives a cause that differs as much as the most different one, all that were
+    # tried counted (Bonferroni)
     p_nothing_changed: float
-    level: float
-    tried: int
+    level: float  # below which changes are named
+    tried: int  # how many causes times places to change were tried
     changes: tuple[Change, ...]
+    # recordings that cover the same ranges of joints and payload: only among them is a change told
     same_poses: tuple[tuple[str, ...], ...] = ()
-    left: tuple[Left, ...] = ()
-    seen: tuple[Seen, ...] = ()
-    of_arms: bool = False
-    other_load: str = ""
-    noisier: tuple[Noisier, ...] = ()
-    bad_shots: tuple[BadShot, ...] = ()
-    points: tuple[MeasuredPoint, ...] = ()
-    left_out: str = ""
+    left: tuple[Left, ...] = ()  # what is left of each recording, by what is explained
+    seen: tuple[Seen, ...] = ()  # how far the zero of each joint must move to be seen, where nothing else changed
+    of_arms: bool = False  # the recordings are of several arms, and a change is what one of them has otherwise
+    other_load: str = ""  # that another load at the flange would look like the changes; "" where it would not
+    noisier: tuple[Noisier, ...] = ()  # recordings of which more is left than of others, whatever is fitted
+    bad_shots: tuple[BadShot, ...] = ()  # rows that lie far off whatever is fitted, and count for little
+    points: tuple[MeasuredPoint, ...] = ()  # where the measured point of each recording sits on the flange
+    left_out: str = ""  # what only some recordings hold, which is not looked at; "" where there is none
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, null for what is no number."""

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 
 from armscope.comparison.constants import COMPARING
-from armscope.comparison.dispersion import Possible, Scored
+from armscope.comparison.scoring import Possible, Scored
 from armscope.comparison.shared_model import SharedModel
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
@@ -59,17 +59,7 @@ def _left_out(taken: Sequence[Possible]) -> Iterator[tuple[Possible, ...]]:
 def _sure_together(
     model: SharedModel, possible: Sequence[Possible], start: Sequence[Possible], tried: int
 ) -> list[Possible]:
-    """Changes that are sure beside others are added, the likeliest first; then those that no more are go again.
-
-    Args:
-        model: what recordings share.
-        possible: the changes that may be added.
-        start: those to begin with.
-        tried: how many the surest is chosen from.
-
-    Returns:
-        Changes each of which is sure beside the rest.
-    """
+    """Changes that are sure beside others are added, the likeliest first; then those that no more are go again."""
     taken = list(start)
     while len(taken) < COMPARING.changes and (rest := [each for each in possible if each not in taken]):
         scores = model.scores(rest, taken)
@@ -91,3 +81,29 @@ def _simplest(scores: Sequence[Scored], among: Sequence[int]) -> int:
     best = max(scores[each].nats for each in among)
     near = [each for each in among if scores[each].nats > best - INDISTINGUISHABLE_NATS]
     return min(near, key=lambda each: (scores[each].statistic.q, -scores[each].nats))
+
+
+def as_steps(taken: Sequence[Possible], possible: Sequence[Possible]) -> list[Possible]:
+    """The same changes, those of one effect as steps from one of the recordings on where these are as many.
+
+    A zero that wears on is larger in each recording than in the one before. "From the third on" and "in the second
+    alone" say the same of three recordings, but the second has less of it than the third, and seemed repaired.
+    """
+    told = list(taken)
+    for number in dict.fromkeys(each.number for each in taken):
+        alike = [each for each in taken if each.number == number]
+        steps = _steps(alike, [each for each in possible if each.number == number])
+        if len(alike) > 1 and len(steps) == len(alike):
+            told = [each for each in told if each.number != number] + steps
+    return told
+
+
+def _steps(alike: Sequence[Possible], possible: Sequence[Possible]) -> list[Possible]:
+    """From each recording on that has not what the one before it has; none where one of them may not be named."""
+    family = sorted({*alike[0].sets, *alike[0].against})
+    if any(sorted({*each.sets, *each.against}) != family for each in alike):
+        return []
+    states = [tuple(k in each.sets for each in alike) for k in family]
+    later = [tuple(family[at:]) for at in range(1, len(family)) if states[at] != states[at - 1]]
+    found = {each.sets: each for each in possible if each.sets in later}
+    return [found[sets] for sets in later] if len(found) == len(later) else []

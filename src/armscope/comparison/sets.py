@@ -58,11 +58,7 @@ def stacked(arm: Arm, recordings: Mapping[str, Recordings]) -> tuple[Recordings,
 
 
 def _check_rows(table: Recordings) -> None:
-    """Its rows must tell more than where base and tool are, as a diagnosis asks, too.
-
-    Raises:
-        InputError: they don't.
-    """
+    """Its rows must tell more than where base and tool are, as a diagnosis asks, too. Raises InputError: they don't."""
     numbers, frames = 3 * len(table), sum(len(placed.terms) for placed in free_frames(table, False))
     if numbers <= 2 * frames:
         found = f"{len(table)} rows, which hold {numbers} numbers"
@@ -71,11 +67,8 @@ def _check_rows(table: Recordings) -> None:
 
 
 def _refuse_copies(names: Sequence[str], tables: Sequence[Recordings]) -> None:
-    """A recording of the rows of another one tells nothing of a change, and makes the noise look small.
-
-    Raises:
-        InputError: all points of one stand in another one, to the last digit.
-    """
+    """A recording of the rows of another one tells nothing of a change, and makes the noise look small. Raises
+    InputError: all points of one stand in another one, to the last digit."""
     points = [{tuple(point) for point in table.positions.tolist()} for table in tables]
     for (first, ours), (second, theirs) in combinations(zip(names, points, strict=True), 2):
         if ours <= theirs or theirs <= ours:

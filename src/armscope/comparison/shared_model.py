@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 
 from armscope.comparison.bad_shots import weigh_rows
 from armscope.comparison.constants import SHARED
-from armscope.comparison.dispersion import Possible, Scored, Statistic, halves, overdispersion
 from armscope.comparison.flange_load import load_at_the_flange
 from armscope.comparison.noisier import LeftOver
 from armscope.comparison.own_errors import learned, no_own_errors, own_errors
 from armscope.comparison.penalised import HeldColumns, held_values, left_of_groups, variance_left
-from armscope.comparison.scoring import scored
+from armscope.comparison.scoring import Possible, Scored, Statistic, halves, overdispersion, scored
 from armscope.comparison.sets import columns_of_rows
 from armscope.core.types import Array, Indices
 from armscope.fitting.joint_scatter import motor_jacobians

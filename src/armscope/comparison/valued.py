@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from armscope.comparison.constants import COMPARING
-from armscope.core.numerals import shown_unit
+from armscope.core.words import shown_unit
 from armscope.physics.constants import PLAUSIBLE
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.wording import decimals_for
@@ -17,27 +17,19 @@ WHOLE_RANGE = {"m": PLAUSIBLE.length_m, "rad": PLAUSIBLE.zero_rad, "rad/rad": PL
 
 @dataclass(frozen=True)
 class Valued:
-    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval.
-
-    Attributes:
-        name, unit: of the parameter.
-        values, stderrs: one per recording.
-        since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
-            where all share what these poses leave open.
-        difference: with the change less without it.
-        interval_95: of the difference.
-        plausible: how large it is on arms.
-    """
+    """A number in every recording, in its file unit, with standard errors; the change with its 95 % interval."""
 
     name: str
     unit: str
     values: tuple[float, ...]
     stderrs: tuple[float, ...]
+    # since_first, since_first_stderrs: the same of its difference from the first recording, which is known far better
+    # where all share what these poses leave open
     since_first: tuple[float, ...]
     since_first_stderrs: tuple[float, ...]
-    difference: float
+    difference: float  # with the change less without it
     interval_95: tuple[float, float]
-    plausible: float = math.inf
+    plausible: float = math.inf  # how large it is on arms
 
     @property
     def left_open(self) -> bool:

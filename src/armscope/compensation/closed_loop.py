@@ -20,37 +20,25 @@ from armscope.recordings.columns import ERROR_COLUMNS, angle_columns
 from armscope.recordings.table import unmeasured
 from armscope.robot import Arm
 
-NO_MODEL = "Uncompensated"
-"""The negative control: the nominal commands."""
+NO_MODEL = "Uncompensated"  # The negative control: the nominal commands
 
 
 @dataclass(frozen=True, eq=False)
 class Corrector:
-    """A model that predicts and compensates.
+    """A model that predicts and compensates."""
 
-    Attributes:
-        tool_pose: tool points (N, 3), m, and orientations (N, 3, 3) at motor angles (N, m) rad, in the frame of the
-            measurements.
-        compensate: commands for a path in that frame.
-    """
-
+    # tool points (N, 3), m, and orientations (N, 3, 3) at motor angles (N, m) rad, in the frame of the measurements
     tool_pose: Callable[[Array], tuple[Array, Array]]
-    compensate: Callable[[WantedPath], Compensated]
+    compensate: Callable[[WantedPath], Compensated]  # commands for a path in that frame
 
 
 @dataclass(frozen=True, eq=False)
 class MeasuredPath:
-    """N points of a trajectory, measured at the nominal commands; base frame.
+    """N points of a trajectory, measured at the nominal commands; base frame."""
 
-    Attributes:
-        motor_angles: (N, m) nominal commands, rad.
-        wanted_mm: (N, 3) mm.
-        errors_mm: (N, 3) measured minus wanted.
-    """
-
-    motor_angles: Array
-    wanted_mm: Array
-    errors_mm: Array
+    motor_angles: Array  # (N, m) nominal commands, rad
+    wanted_mm: Array  # (N, 3) mm
+    errors_mm: Array  # (N, 3) measured minus wanted
 
 
 def black_box_candidate(model: ErrorModel, pose: bool = False) -> Corrector:

@@ -27,28 +27,21 @@ from armscope.core.types import Array
 
 @dataclass(frozen=True, eq=False)
 class Domain:
-    """The range of M identification rows in k inputs.
+    """The range of M identification rows in k inputs."""
 
-    Attributes:
-        inputs, units: (k) names of the inputs, and their units, keys of `RANGE.still`.
-        rows: M.
-        mean, scale: (k,) in these units.
-        moving: (k,) whether the input moved in the data.
-        low, high: (d,) extent along each direction, in standard deviations.
-        standardised_rows: (M', k) rows less their mean, over the scale.
-        allowed: how far outside a point may lie, in standard deviations.
-    """
-
+    # inputs, units: (k) names of the inputs, and their units, keys of `RANGE.still`
     inputs: tuple[str, ...]
     units: tuple[str, ...]
     rows: int
+    # mean, scale: (k,) in these units
     mean: Array
     scale: Array
-    moving: NDArray[np.bool_]
+    moving: NDArray[np.bool_]  # (k,) whether the input moved in the data
+    # low, high: (d,) extent along each direction, in standard deviations
     low: Array
     high: Array
-    standardised_rows: Array
-    allowed: float = RANGE.allowed
+    standardised_rows: Array  # (M', k) rows less their mean, over the scale
+    allowed: float = RANGE.allowed  # how far outside a point may lie, in standard deviations
 
     @staticmethod
     def of(inputs: ArrayLike, names: Sequence[str], units: Sequence[str]) -> Domain:

@@ -12,18 +12,9 @@ from armscope.compensation.constants import REFUSED
 from armscope.core.averages import rms, rms_distance
 from armscope.core.inputs import InputError
 from armscope.core.types import Array
-from armscope.errormodels.features import FeatureSet, ModelSpec
-from armscope.errormodels.least_squares import fit_least_squares
+from armscope.errormodels.features import FeatureSet, ModelSpec, fit_least_squares
 from armscope.errormodels.products import ProductFeatures, fit_products
-from armscope.errormodels.regions import (
-    Cut,
-    blended,
-    chosen_regions,
-    compare_regions,
-    divide,
-    fit_regions,
-    halvings_of,
-)
+from armscope.errormodels.regions import Cut, blended, chosen_regions, compare_regions, divide, fit_regions, halvings_of
 from armscope.errormodels.swarm_fit import FitProblem, fit_swarms
 from armscope.fitting.constants import STEPS
 from armscope.fitting.placement import FlangePoses, all_alike, place_frames
@@ -122,11 +113,7 @@ class _How:
         return divide(inputs, halvings_of(count))
 
     def fit(self, inputs: Array, errors: Array, cut: Cut | None, label: str) -> _Fitted:
-        """Fit errors (M, 3) within the borders of the regions.
-
-        Raises:
-            ValueError: a region with too few rows.
-        """
+        """Fit errors (M, 3) within the borders of the regions. Raises ValueError: a region with too few rows."""
         features = self.spec.features(inputs)
         if self.method == "swarm":
             fit = fit_swarms([FitProblem(self.spec, inputs, errors, label)], [self.seed])[0]

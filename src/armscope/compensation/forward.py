@@ -20,17 +20,11 @@ Rows = Indices
 
 @dataclass(frozen=True, eq=False)
 class ToolPose:
-    """The tool at N commands, in base axes.
+    """The tool at N commands, in base axes."""
 
-    Attributes:
-        points: (N, 3) m.
-        rotations: (N, 3, 3) orientation of the last frame.
-        jacobian: (N, 6, m) displacement (m) and turn (rad) of the tool by unit turns of the motors.
-    """
-
-    points: Array
-    rotations: Array
-    jacobian: Array
+    points: Array  # (N, 3) m
+    rotations: Array  # (N, 3, 3) orientation of the last frame
+    jacobian: Array  # (N, 6, m) displacement (m) and turn (rad) of the tool by unit turns of the motors
 
 
 class Forward(Protocol):
@@ -82,17 +76,11 @@ class BlackBoxArm:
 
 @dataclass(frozen=True, eq=False)
 class PhysicalArm:
-    """A diagnosed arm with all its effects in place, in the context of the path's rows.
-
-    Attributes:
-        model: the fitted model.
-        context: the path's rows: runs, targets, load, temperature, side of approach, ...
-        as_measured: whether points are those that the instrument reads (its scale error included).
-    """
+    """A diagnosed arm with all its effects in place, in the context of the path's rows."""
 
     model: FittedModel
-    context: Recordings
-    as_measured: bool
+    context: Recordings  # the path's rows: runs, targets, load, temperature, side of approach, ...
+    as_measured: bool  # whether points are those that the instrument reads (its scale error included)
 
     @property
     def arm(self) -> Arm:

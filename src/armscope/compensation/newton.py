@@ -24,17 +24,11 @@ from armscope.robot.newton_steps import damping, least_turns, shortened, smalles
 
 @dataclass(frozen=True, eq=False)
 class Wanted:
-    """Where the tool should be, N rows in base axes.
+    """Where the tool should be, N rows in base axes."""
 
-    Attributes:
-        points: (N, 3) m.
-        rotations: (N, 3, 3) of the last frame, or None where the orientation is free.
-        reachable: directions in which the arm can be led; None for all.
-    """
-
-    points: Array
-    rotations: Array | None = None
-    reachable: Reachable | None = None
+    points: Array  # (N, 3) m
+    rotations: Array | None = None  # (N, 3, 3) of the last frame, or None where the orientation is free
+    reachable: Reachable | None = None  # directions in which the arm can be led; None for all
 
     def __len__(self) -> int:
         return len(self.points)
@@ -69,21 +63,13 @@ class Wanted:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Commands for N rows.
+    """Commands for N rows."""
 
-    Attributes:
-        angles: (N, m) rad; the last iterate where not converged.
-        converged: (N,) whether the tool is where it should be (1e-9 m; turns by the arm's lever).
-        limit: (N,) number of a motor (from 1) whose limit the row would break; 0 for none.
-        singular: (N,) smallest singular value of the scaled Jacobian (m/rad over the lever).
-        iterations: of the row that took most.
-    """
-
-    angles: Array
-    converged: NDArray[np.bool_]
-    limit: Indices
-    singular: Array
-    iterations: int
+    angles: Array  # (N, m) rad; the last iterate where not converged
+    converged: NDArray[np.bool_]  # (N,) whether the tool is where it should be (1e-9 m; turns by the arm's lever)
+    limit: Indices  # (N,) number of a motor (from 1) whose limit the row would break; 0 for none
+    singular: Array  # (N,) smallest singular value of the scaled Jacobian (m/rad over the lever)
+    iterations: int  # of the row that took most
 
 
 def weakest(wanted: Wanted, pose: ToolPose, free: NDArray[np.bool_], arm_lever: float) -> Array:
@@ -190,3 +176,42 @@ def _iterate(
         step = least_turns(jacobian, goal, damping(size[stays], SEARCH.least_damping)) - back * moves[at_work]
         angles[at_work] += shortened(step, COMMANDS.step_rad)
     return angles, converged, singular, steps
+
+
+@dataclass(frozen=True, eq=False)
+class Corrected:
+    """What `correct` finds for n rows: m and rad as in `Compensated`; ``pole`` (n,) where the arm can't be led."""
+
+    uncorrected: Array
+    uncorrected_turn: Array
+    solution: Solution
+    predicted: Array
+    residual_turn: Array
+    pole: NDArray[np.bool_]
+
+
+def correct(real: Forward, wanted: Wanted, nominal: Array, free: NDArray[np.bool_], rows: Indices) -> Corrected:
+    """Some rows of a path: where the real arm would be at the nominal posture, and the commands that put it right.
+
+    Args:
+        real: the arm.
+        wanted: n points, or full poses, base axes.
+        nominal: (n, m) rad, the nominal posture.
+        free: (m,) motors that may move.
+        rows: (n,) their numbers in the path.
+
+    Returns:
+        Commands and misses with and without them.
+    """
+    before = real.at(nominal, rows)
+    solution = solve_commands(real, wanted, nominal, free, rows)
+    at_start = weakest(wanted, before, free, lever(real))
+    after = real.at(solution.angles, rows)
+    return Corrected(
+        np.linalg.norm(wanted.points - before.points, axis=1),
+        np.linalg.norm(wanted.turn(before), axis=1),
+        solution,
+        after.points,
+        np.linalg.norm(wanted.turn(after), axis=1),
+        np.where(solution.converged, solution.singular, at_start) < COMMANDS.pole,
+    )

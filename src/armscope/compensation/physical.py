@@ -32,27 +32,19 @@ WHAT = "domain.json of `armscope diagnose`"
 
 @dataclass(frozen=True, eq=False)
 class Identified:
-    """The recordings that a physical model was found on.
+    """The recordings that a physical model was found on."""
 
-    Attributes:
-        arm: the arm's name.
-        domain: range of motor angles, and of payload and temperature where recorded.
-        payload_kg: whether rows carried a payload, and which one where it never changed: None for no column.
-        time_s: first and last, where recorded.
-        torque_weights: (m, p) recorded torque of each motor by the static torque regressor, where recorded.
-        payload_left_out: whether some rows stated no payload where others did: the model took it for none.
-        held_out_mm: how well rows that took no part were met, RMS of the distance, noise included; None: not known.
-        many_fit_nothing: whether more of the rows fit nothing of the model than bad shots would.
-    """
-
-    arm: str
-    domain: Domain
+    arm: str  # the arm's name
+    domain: Domain  # range of motor angles, and of payload and temperature where recorded
+    # whether rows carried a payload, and which one where it never changed: None for no column
     payload_kg: tuple[float, float] | None
-    time_s: tuple[float, float] | None = None
+    time_s: tuple[float, float] | None = None  # first and last, where recorded
+    # (m, p) recorded torque of each motor by the static torque regressor, where recorded
     torque_weights: Array | None = None
-    payload_left_out: bool = False
+    payload_left_out: bool = False  # whether some rows stated no payload where others did: the model took it for none
+    # how well rows that took no part were met, RMS of the distance, noise included; None: not known
     held_out_mm: float | None = None
-    many_fit_nothing: bool = False
+    many_fit_nothing: bool = False  # whether more of the rows fit nothing of the model than bad shots would
 
     def inputs(self, angles: Array, rows: Recordings) -> Array:
         """(N, k) the domain's inputs at motor angles (N, m) rad; context that is not stated counts as usual."""
@@ -125,11 +117,7 @@ def save_identified(path: Path | str, identified: Identified) -> None:
 
 
 def load_identified(path: Path | str) -> Identified:
-    """Read domain.json.
-
-    Raises:
-        InputError: it is none.
-    """
+    """Read domain.json. Raises InputError: it is none."""
     content = validate(IdentifiedContent, mapping(read_json(path, WHAT), path, WHAT), path)
     return Identified(
         content.robot,
@@ -144,11 +132,7 @@ def load_identified(path: Path | str) -> Identified:
 
 
 def identified_beside(model: Path) -> Identified | None:
-    """What stands in domain.json beside a model.yaml; None where there is none.
-
-    Raises:
-        InputError: it is none.
-    """
+    """What stands in domain.json beside a model.yaml; None where there is none. Raises InputError: it is none."""
     return load_identified(model.parent / FILE) if (model.parent / FILE).is_file() else None
 
 
@@ -270,11 +254,8 @@ def _payload(rows: Recordings) -> Array:
 
 
 def with_measured_tool(model: FittedModel, rows: Recordings) -> Arm:
-    """The nominal arm with the measured tool point: where on the tool one measured is no error of the arm.
-
-    Raises:
-        InputError: the rows are of several points.
-    """
+    """The nominal arm with the measured tool point: where on the tool one measured is no error of the arm. Raises
+    InputError: the rows are of several points."""
     shift = np.zeros((len(rows), 3))
     for part in model.tools:
         if part.placed.name == TOOL_FRAME.name:

@@ -47,20 +47,11 @@ def predict_file(model: Path, poses: Path, pose: bool = False) -> tuple[pd.DataF
     else:
         found = _by_physics(model, poses, pose)
     points, rotations, rows, notes = found
-    return points_table(points, rotations, rows), notes
+    return _points_table(points, rotations, rows), notes
 
 
-def points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd.DataFrame:
-    """Points and orientations of some rows as a table.
-
-    Args:
-        points: (N, 3), m.
-        rotations: (N, 3, 3), or None.
-        rows: what they are of.
-
-    Returns:
-        Columns id, run, x_mm, y_mm, z_mm and, where there are rotations, qw, qx, qy, qz.
-    """
+def _points_table(points: Array, rotations: Array | None, rows: Recordings) -> pd.DataFrame:
+    """Columns id, run, x_mm, y_mm, z_mm and, where there are rotations (N, 3, 3), qw, qx, qy, qz; points (N, 3), m."""
     import pandas as pd
     from scipy.spatial.transform import Rotation
 
@@ -99,7 +90,7 @@ def predict_rows(
         InputError: context that the model follows and the rows lack.
     """
     points, rotations, _, notes = _by_model(fitted, rows, identified, pose)
-    return points_table(points, rotations, rows), notes
+    return _points_table(points, rotations, rows), notes
 
 
 def _by_model(fitted: FittedModel, rows: Recordings, identified: Identified | None, pose: bool) -> Found:
@@ -152,10 +143,7 @@ def _are_numbers(rows: Recordings) -> bool:
 
 def _refuse_missing_context(fitted: FittedModel, rows: Recordings, identified: Identified | None) -> list[str]:
     """What an effect follows must be known in every row: nothing is taken for zero; notes where that is not known.
-
-    Raises:
-        InputError: it is not.
-    """
+    Raises InputError: it is not."""
     from armscope.compensation.physical import FILE, drivers_of, missing_context
     from armscope.physics.drivers import KINDS
 
@@ -187,8 +175,7 @@ def _by_description(robot: Path, poses: Path, pose: bool) -> Found:
 
 def _by_black_box(model: Path, poses: Path, pose: bool) -> Found:
     """As `_by_physics` for a black-box model; poses outside the identified range are named."""
-    from armscope.compensation.black_box import domain_inputs
-    from armscope.compensation.error_model_file import load_error_model
+    from armscope.compensation.black_box import domain_inputs, load_error_model
 
     fitted = load_error_model(model)
     rows = read_recordings(poses, fitted.arm.n_motors, measured=False)

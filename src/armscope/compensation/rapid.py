@@ -18,8 +18,7 @@ from armscope.core.inputs import InputError
 from armscope.core.types import Array
 
 NOT_THERE = "9E9"
-AXES = len(("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"))
-"""Of a joint target: the robot's, and as many others."""
+AXES = len(("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"))  # Of a joint target: the robot's, and as many others
 LARGEST = AXES + 1
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
 TARGET = re.compile(r"CONST\s+jointtarget\s+(\w+)\s*:=\s*\[\s*\[([^\]]*)\]\s*,\s*\[([^\]]*)\]\s*\]\s*;", re.IGNORECASE)
@@ -60,11 +59,8 @@ def write_rapid(path: Path | str, angles: Array, name: str = "armscope_path", sp
 
 
 def read_rapid(path: Path | str, n_motors: int) -> Array:
-    """The commands (N, m) rad of a RAPID module's joint targets, in the order in which it moves to them.
-
-    Raises:
-        InputError: no such module, a target that is not defined, or another number of motors.
-    """
+    """The commands (N, m) rad of a RAPID module's joint targets, in the order in which it moves to them. Raises
+    InputError: no such module, a target that is not defined, or another number of motors."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

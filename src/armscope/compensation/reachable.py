@@ -16,15 +16,12 @@ from armscope.robot import Arm, chain
 
 @dataclass(frozen=True, eq=False)
 class Reachable:
-    """Directions of the base in which an arm can be commanded.
+    """Directions of the base in which an arm can be commanded."""
 
-    Attributes:
-        shifts, turns: (k, 3) orthonormal, in which its tool can be moved, and about which it can be turned.
-        no_shifts, no_turns: (3 - k, 3) the others.
-    """
-
+    # shifts, turns: (k, 3) orthonormal, in which its tool can be moved, and about which it can be turned
     shifts: Array
     turns: Array
+    # no_shifts, no_turns: (3 - k, 3) the others
     no_shifts: Array
     no_turns: Array
 
@@ -42,7 +39,6 @@ class Reachable:
 
         Args:
             left_m: (N,) what is missed where the arm can't be moved, m.
-            pose: whether orientations are asked for, too.
 
         Returns:
             A note; "" for an arm that can be led anywhere.
@@ -65,11 +61,7 @@ def reachable_by(arm: Arm, free: NDArray[np.bool_]) -> Reachable:
     A direction in which a unit turn of the motors moves it hardly anywhere by more than at a pole is none.
 
     Args:
-        arm: the nominal arm.
         free: (m,) motors that may move.
-
-    Returns:
-        The directions.
     """
     limits = np.where(np.isfinite(arm.limits), arm.limits, [-np.pi, np.pi])
     low, high = limits.T

@@ -14,60 +14,44 @@ from scipy.spatial.transform import Rotation
 from armscope.compensation.path import Frame
 from armscope.core.averages import rms
 from armscope.core.inputs import InputError
-from armscope.core.numerals import or_less
 from armscope.core.told import InWords
 from armscope.core.types import Array, Indices
+from armscope.core.words import or_less
 from armscope.recordings.columns import angle_columns
 from armscope.robot import Arm
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Compensated(InWords):
-    """Commands for N rows of a path; NaN in rows that are refused.
-
-    Attributes:
-        arm: the nominal arm.
-        id, run: (N,) of the path's rows.
-        reasons: (N,) texts: why a row is refused; "" where it is not.
-        commands: (N, m) motor angles, rad.
-        nominal: (N, m) motor angles without correction, rad; NaN where the nominal arm can't get there.
-        false_targets: (N, 3) nominal tool points at the commands, base frame, m: what a controller is given.
-        false_rotations: (N, 3, 3) nominal orientations at the commands.
-        wanted, predicted: (N, 3) m, in ``frame``.
-        residual: (N,) distance of the predicted from the wanted point, m.
-        uncorrected: (N,) the same without correction, m.
-        residual_turn, uncorrected_turn: (N,) the same for the orientation, rad; NaN where it is free.
-        outside, nearest: (N,) distance of the commands from the identified range, and from the nearest identification
-            row (root mean square over the inputs), in standard deviations.
-        frame: of wanted and predicted points.
-        pose: whether the orientation was kept.
-        iterations: Newton steps of the row that took most.
-        notes: what a user should know.
-        turn_open: whether a turn of the tool on the flange, the same in all rows, is not known.
-        context: columns of the path's load, temperature and sides of approach, by name, where it has them.
-    """
+    """Commands for N rows of a path; NaN in rows that are refused."""
 
     arm: Arm
+    # id, run: (N,) of the path's rows
     id: NDArray[np.str_]
     run: NDArray[np.str_]
-    reasons: NDArray[np.object_]
-    commands: Array
-    nominal: Array
-    false_targets: Array
-    false_rotations: Array
+    reasons: NDArray[np.object_]  # (N,) texts: why a row is refused; "" where it is not
+    commands: Array  # (N, m) motor angles, rad
+    nominal: Array  # (N, m) motor angles without correction, rad; NaN where the nominal arm can't get there
+    false_targets: Array  # (N, 3) nominal tool points at the commands, base frame, m: what a controller is given
+    false_rotations: Array  # (N, 3, 3) nominal orientations at the commands
+    # wanted, predicted: (N, 3) m, in ``frame``
     wanted: Array
     predicted: Array
-    residual: Array
-    uncorrected: Array
+    residual: Array  # (N,) distance of the predicted from the wanted point, m
+    uncorrected: Array  # (N,) the same without correction, m
+    # residual_turn, uncorrected_turn: (N,) the same for the orientation, rad; NaN where it is free
     residual_turn: Array
     uncorrected_turn: Array
+    # outside, nearest: (N,) distance of the commands from the identified range, and from the nearest identification row
+    # (root mean square over the inputs), in standard deviations
     outside: Array
     nearest: Array
-    frame: Frame
-    pose: bool
-    iterations: int
-    notes: tuple[str, ...] = ()
-    turn_open: bool = False
+    frame: Frame  # of wanted and predicted points
+    pose: bool  # whether the orientation was kept
+    iterations: int  # Newton steps of the row that took most
+    notes: tuple[str, ...] = ()  # what a user should know
+    turn_open: bool = False  # whether a turn of the tool on the flange, the same in all rows, is not known
+    # columns of the path's load, temperature and sides of approach, by name, where it has them
     context: Mapping[str, Array] = field(default_factory=dict)
 
     @property
@@ -136,11 +120,7 @@ class Compensated(InWords):
         return table
 
     def require_all(self, source: object) -> Array:
-        """The commands, if every row has one.
-
-        Raises:
-            InputError: names the first refused row and why.
-        """
+        """The commands, if every row has one. Raises InputError: names the first refused row and why."""
         refused = np.flatnonzero(~self.reached)
         if len(refused):
             raise InputError(

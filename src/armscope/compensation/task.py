@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from armscope.compensation.constants import COMMANDS
-from armscope.compensation.correction import correct
 from armscope.compensation.domain import Domain
 from armscope.compensation.forward import Forward, NominalArm
-from armscope.compensation.newton import Solution, Wanted, row_pieces, solve_commands
-from armscope.compensation.nominal_path import nominal_branch
-from armscope.compensation.path import Frame, WantedPath, unit_doubt
+from armscope.compensation.newton import Solution, Wanted, correct, row_pieces, solve_commands
+from armscope.compensation.path import Frame, WantedPath, nominal_branch, unit_doubt
 from armscope.compensation.reachable import Reachable, reachable_by
 from armscope.compensation.result import Compensated
 from armscope.core.inputs import InputError
@@ -28,22 +26,16 @@ from armscope.robot.constants import SEARCH
 
 @dataclass(frozen=True, eq=False)
 class Options:
-    """How to compensate.
+    """How to compensate."""
 
-    Attributes:
-        frame: where wanted points and orientations stand: in the arm's base frame, or in the measurement frame.
-        pose: keep the orientation, too: of the table's quaternions, or of its joint angles.
-        start_rad: (m,) where the arm comes from; None takes the middle of the identified range.
-        allowed_outside: how far outside the identified range a command may lie, standard deviations; None: as far as
-            poses do that were recorded alike.
-        separate_points: single points, no path: a motor may turn far between neighbouring rows.
-    """
-
+    # where wanted points and orientations stand: in the arm's base frame, or in the measurement frame
     frame: Frame = "base"
-    pose: bool = False
-    start_rad: Array | None = None
+    pose: bool = False  # keep the orientation, too: of the table's quaternions, or of its joint angles
+    start_rad: Array | None = None  # (m,) where the arm comes from; None takes the middle of the identified range
+    # how far outside the identified range a command may lie, standard deviations; None: as far as poses do that were
+    # recorded alike
     allowed_outside: float | None = None
-    separate_points: bool = False
+    separate_points: bool = False  # single points, no path: a motor may turn far between neighbouring rows
 
     @property
     def largest_step(self) -> float:
@@ -53,27 +45,20 @@ class Options:
 
 @dataclass(frozen=True, eq=False)
 class PathTask:
-    """A path, the arm that shall follow it, and where its model holds.
+    """A path, the arm that shall follow it, and where its model holds."""
 
-    Attributes:
-        arm: the nominal arm with the tool point that is led along the path.
-        stated: the controller's arm, whose tool point may be another one.
-        forward: the real arm near given nominal postures, and a note about it.
-        domain_inputs: the domain's inputs at motor angles of some rows, and which rows these are.
-        to_base, to_frame: points from the path's frame to the base frame and back.
-        turn: (N, 3, 3) the path's frame from the base frame.
-    """
-
-    arm: Arm
-    stated: Arm
+    arm: Arm  # the nominal arm with the tool point that is led along the path
+    stated: Arm  # the controller's arm, whose tool point may be another one
     path: WantedPath
     options: Options
     domain: Domain
-    forward: Callable[[Array], tuple[Forward, str]]
+    forward: Callable[[Array], tuple[Forward, str]]  # the real arm near given nominal postures, and a note about it
+    # the domain's inputs at motor angles of some rows, and which rows these are
     domain_inputs: Callable[[Array, Indices], Array]
+    # to_base, to_frame: points from the path's frame to the base frame and back
     to_base: Callable[[Array], Array]
     to_frame: Callable[[Array], Array]
-    turn: Array
+    turn: Array  # (N, 3, 3) the path's frame from the base frame
 
     def run(self, refused: NDArray[np.object_]) -> Compensated:
         """Nominal branch, Newton's method on the real arm from there, every reason to refuse a row."""

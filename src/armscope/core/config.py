@@ -6,6 +6,7 @@ The JSON schema that Snakemake checks a configuration against is generated from 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Annotated, Any, Generic, Literal, TypeVar
 
 import pydantic
@@ -260,3 +261,25 @@ def stated_numbers(section: pydantic.BaseModel, prefix: str = "") -> list[dict[s
         elif isinstance(value, pydantic.BaseModel):
             rows += stated_numbers(value, f"{prefix}{name}.")
     return rows
+
+
+def with_own_sources(config: Mapping[str, Any], default: Mapping[str, Any]) -> dict[str, Any]:
+    """A configuration in which no number that was set anew keeps the source of the number that it stands in place of.
+
+    Args:
+        config: as it is used: the defaults, and over them what was set.
+        default: of the file with all defaults; `{value: ..., source: ...}` is a number with its source.
+
+    Returns:
+        The configuration; a changed number that came without a source says so, and what the default was.
+    """
+    mended = dict(config)
+    for name, part in config.items():
+        was = default.get(name)
+        if not (isinstance(part, Mapping) and isinstance(was, Mapping)):
+            continue
+        mended[name] = with_own_sources(part, was)
+        own = {"value", "source"} <= part.keys() & was.keys() and part["value"] != was["value"]
+        if own and part["source"] == was["source"]:
+            mended[name]["source"] = f"set for this run, without a source (default: {was['value']}, {was['source']})"
+    return mended

@@ -6,20 +6,28 @@ A module keeps its own in a frozen dataclass that derives from `Constants`, one 
     class SearchBudget(Constants):
         '''How much is searched.'''
 
-        beam: int = constant(3, "hypotheses that go on after every round", "judgement: ...", unit="hypotheses")
+        beam: int = 3
+        '''hypotheses that go on after every round [hypotheses]; judgement: ...'''
 
 docs/constants.md is made of them by `python -m tools.constants`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+import ast
+import inspect
+import re
+import textwrap
+from dataclasses import Field, dataclass, field, fields
+from itertools import pairwise
 from typing import TypeVar
 
 Value = TypeVar("Value")
 
 BASES = ("measured", "derived", "convention", "judgement")
 """What a value may rest on: an experiment that is named, a formula, what everybody does, or somebody's view."""
+_SAID = re.compile(rf"(.+?)(?: \[([^\]]+)\])?; ((?:{'|'.join(BASES)}): .+|convention)")
+"""What stands below a number: its meaning, its unit unless it has none, and its basis with a reason."""
 
 
 @dataclass(frozen=True)
@@ -60,8 +68,18 @@ def constant(value: Value, meaning: str, basis: str, *, unit: str = "") -> Value
 
 
 def entries(group: type[Constants]) -> list[Entry]:
-    """A group's numbers, in its order."""
-    return [
-        Entry(each.name, each.default, each.metadata["unit"], each.metadata["meaning"], each.metadata["basis"])
-        for each in fields(group)
-    ]
+    """A group's numbers, in its order. Raises ValueError: one without a meaning or a basis."""
+    body = ast.parse(textwrap.dedent(inspect.getsource(group))).body[0]
+    assert isinstance(body, ast.ClassDef)
+    below = {ast.unparse(each.target): said for each, said in pairwise(body.body) if isinstance(each, ast.AnnAssign)}
+    return [_entry(each, below.get(each.name)) for each in fields(group)]
+
+
+def _entry(number: Field[object], below: ast.stmt | None) -> Entry:
+    if number.metadata:
+        return Entry(name=number.name, value=number.default, **number.metadata)
+    said = ast.literal_eval(below.value) if isinstance(below, ast.Expr) else ""
+    found = _SAID.fullmatch(" ".join(said.split()))
+    if found is None:
+        raise ValueError(f"{number.name}: {said!r} must be a meaning, a [unit] and a basis: one of {', '.join(BASES)}")
+    return Entry(number.name, number.default, found[2] or "", found[1], found[3])

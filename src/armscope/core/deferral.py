@@ -7,12 +7,8 @@ import sys
 
 
 def defer(package: str, *names: str) -> None:
-    """Put off importing some modules of a package until something in them is asked for.
-
-    Args:
-        package: one that is imported already; otherwise nothing is done.
-        names: of its modules; those that are imported already, or are not there, are left as they are.
-    """
+    """Put off importing some modules of a package until something in them is asked for. ``names``: of its modules;
+    those that are imported already, or are not there, are left as they are."""
     parent = sys.modules.get(package)
     for name in names if parent is not None else ():
         whole = f"{package}.{name}"

@@ -31,10 +31,8 @@ if TYPE_CHECKING:
 
 LARGEST_UNPACKED_SHARE = 200
 """Bytes for each packed one: recordings unpack to ten times their size, a bomb to a thousand times."""
-ROWS_AT_A_TIME = 10_000
-"""Numbers as text take several times their memory: of thirty columns some forty megabytes."""
-LONGEST_WHOLE = 18
-"""Digits of a whole number."""
+ROWS_AT_A_TIME = 10_000  # Numbers as text take several times their memory: of thirty columns some forty megabytes
+LONGEST_WHOLE = 18  # Digits of a whole number
 
 
 def writable(folder: Path | str, *names: str) -> Path:
@@ -42,7 +40,6 @@ def writable(folder: Path | str, *names: str) -> Path:
 
     Args:
         folder: made if need be; what a command writes is made ready elsewhere, so there it may stay away till the end.
-        names: of the files that will be written there.
 
     Raises:
         InputError: nothing can be written there, or not under one of the names.
@@ -94,11 +91,8 @@ def read_table(path: Path | str, columns: Iterable[str] = (), what: str = "a tab
 
 
 def read_json(path: Path | str, what: str) -> Any:
-    """The content of a JSON file, gzipped or not; ``what`` it is, for the error.
-
-    Raises:
-        InputError: no such file, no JSON.
-    """
+    """The content of a JSON file, gzipped or not; ``what`` it is, for the error. Raises InputError: no such file, no
+    JSON."""
     path = Path(path)
     note_read(path)
     try:
@@ -153,10 +147,6 @@ def replacing(path: Path | str, at_once: bool = False) -> Iterator[Path]:
     pipe is written through, "-" is standard output, a link stays one: its target is written. Where the process is
     killed, a hidden ``.part`` stays behind, which nobody takes for a finished file and the next writer removes.
 
-    Args:
-        path: what to write.
-        at_once: don't wait for the end of the command.
-
     Raises:
         InputError: the command may not write there.
     """
@@ -199,11 +189,8 @@ def _beside(path: Path) -> Iterator[Path]:
 
 
 def new_folder(folder: Path | str) -> None:
-    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it.
-
-    Raises:
-        InputError: there is something in it.
-    """
+    """Make sure that a folder to be written holds nothing yet, unless a command looks after what is in it. Raises
+    InputError: there is something in it."""
     if outputs.current() is None and Path(folder).is_dir() and any(Path(folder).iterdir()):
         raise InputError(folder, "", "a folder with files in it", "a new or empty folder is needed")
 

@@ -116,8 +116,7 @@ def unreadable(path: Path, error: OSError, endings: tuple[str, ...]) -> tuple[st
     )
 
 
-MOST_OFFERED = 3
-"""Files of a folder that an error offers."""
+MOST_OFFERED = 3  # Files of a folder that an error offers
 
 LONGEST_NAME, MOST_NAMES, MOST_TOLD = 100, 1000, 100
 """Beyond these a name is no slip of the pen, and likeness takes too long to measure."""
@@ -140,11 +139,8 @@ class Strict(pydantic.BaseModel):
 
 
 def read_yaml(path: Path | str) -> Any:
-    """The content of a YAML file: plain values, see `armscope.core.plainyaml`.
-
-    Raises:
-        InputError: it can't be read; line and column are named.
-    """
+    """The content of a YAML file: plain values, see `armscope.core.plainyaml`. Raises InputError: it can't be read;
+    line and column are named."""
     path = Path(path)
     note_read(path)
     try:
@@ -208,11 +204,7 @@ def load(model: type[Model], path: Path | str) -> Model:
 
 
 def read_keys(path: Path | str) -> dict[Any, Any]:
-    """The content of a YAML file that has keys.
-
-    Raises:
-        InputError: it can't be read, or has none.
-    """
+    """The content of a YAML file that has keys. Raises InputError: it can't be read, or has none."""
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise InputError(path, "", content or "nothing", "this file has lines of the form `key: value`")

@@ -11,17 +11,11 @@ _WORDS = re.compile(r"(joint|link|motor) (\d+)(?: from joint (\d+))?")
 
 @dataclass(frozen=True)
 class Location:
-    """A place as its parts; `str` gives the words of the files.
+    """A place as its parts; `str` gives the words of the files."""
 
-    Attributes:
-        kind: "base", "joint", "link", "motor", "tool", "instrument", "payload", "parallelogram", or any other words.
-        number: which joint, link or motor, from 1; 0 where places are not numbered.
-        source: for "joint 6 from joint 5": 5, whose motion does it; else 0.
-    """
-
-    kind: str
-    number: int = 0
-    source: int = 0
+    kind: str  # "base", "joint", "link", "motor", "tool", "instrument", "payload", "parallelogram", or any other words
+    number: int = 0  # which joint, link or motor, from 1; 0 where places are not numbered
+    source: int = 0  # for "joint 6 from joint 5": 5, whose motion does it; else 0
 
     @classmethod
     @functools.lru_cache(maxsize=10_000)

@@ -13,8 +13,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-TRIES, PAUSE_S = 5, 0.05
-"""A run that tidies up holds the locks of dead ones for a moment."""
+TRIES, PAUSE_S = 5, 0.05  # A run that tidies up holds the locks of dead ones for a moment
 _NO_FLOCK = (errno.ENOLCK, errno.EOPNOTSUPP, errno.ENOSYS, errno.EINVAL)
 
 
@@ -37,12 +36,7 @@ class Lock:
         self._handle: int | None = None
 
     def take(self) -> None:
-        """Take the lock.
-
-        Raises:
-            Busy: a living process holds it.
-            OSError: the file can't be made.
-        """
+        """Take the lock. Raises Busy: a living process holds it; OSError: the file can't be made."""
         tries = 0
         while self._handle is None:
             handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)

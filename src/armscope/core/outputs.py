@@ -73,13 +73,8 @@ class Result:
         return self.home / HIDDEN / f"{self.key}{ending}"
 
     def open(self) -> None:
-        """Take the place's lock, and tidy up after runs that were killed.
-
-        Raises:
-            Busy: another process writes there.
-            InputError: nothing can be written there.
-            OSError: the disk is full, read-only or broken.
-        """
+        """Take the place's lock, and tidy up after runs that were killed. Raises Busy: another process writes there;
+        InputError: nothing can be written there; OSError: the disk is full, read-only or broken."""
         try:
             try:
                 self._make_folders()
@@ -228,11 +223,8 @@ class Delivery:
                 result.close()
 
     def expect(self, folder: Path, names: Iterable[str]) -> bool:
-        """Before long work: whether a folder is an output of the command.
-
-        Raises:
-            InputError: files of these names, or of those of the last time, may not be written there.
-        """
+        """Before long work: whether a folder is an output of the command. Raises InputError: files of these names,
+        or of those of the last time, may not be written there."""
         for result in self.results:
             if result.place == Path(os.path.realpath(folder)):
                 if result.home == result.place:
@@ -244,11 +236,8 @@ class Delivery:
         return False
 
     def stage(self, path: Path | str) -> Path | None:
-        """Where to make a file ready; None for one that belongs to no output of the command, as in a temporary folder.
-
-        Raises:
-            InputError: it may not be written.
-        """
+        """Where to make a file ready; None for one that belongs to no output of the command, as in a temporary
+        folder. Raises InputError: it may not be written."""
         if (found := self._of(path)) is None:
             if identity(path) in self._inputs:
                 raise InputError(path, "", "an input of this command", "the output goes to a place of its own")
@@ -270,11 +259,7 @@ class Delivery:
         return found[0].staged(found[1]) if found is not None and found[1] in found[0].names else None
 
     def put(self) -> None:
-        """Put all files in place.
-
-        Raises:
-            InputError: one of them may not be written; then none is.
-        """
+        """Put all files in place. Raises InputError: one of them may not be written; then none is."""
         for result in self.results:
             for name in result.names:
                 result.check(name, self._inputs, self.force)

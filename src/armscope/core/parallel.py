@@ -33,11 +33,7 @@ def processes(count: int) -> Iterator[None]:
 
 
 def shared_array(shape: tuple[int, ...]) -> Array:
-    """An array of zeros into which `each_piece` may write, a piece its own part: no process has to send it.
-
-    Args:
-        shape: of the array; at least one number.
-    """
+    """An array of zeros into which `each_piece` may write, a piece its own part: no process has to send it."""
     if _PROCESSES.get() < 2:
         return np.zeros(shape)
     return np.frombuffer(mmap.mmap(-1, math.prod(shape) * np.dtype(float).itemsize)).reshape(shape)

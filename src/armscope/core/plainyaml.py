@@ -13,12 +13,9 @@ from typing import Any
 
 import yaml
 
-DEEPEST = 60
-"""Levels of nesting; no file of armscope has more than ten."""
-MOST_VALUES = 600_000
-"""Values after aliases are written out."""
-MOST_KEYS = 20_000
-"""Of one mapping; what a file of armscope names, runs of a model above all, are hundreds."""
+DEEPEST = 60  # Levels of nesting; no file of armscope has more than ten
+MOST_VALUES = 600_000  # Values after aliases are written out
+MOST_KEYS = 20_000  # Of one mapping; what a file of armscope names, runs of a model above all, are hundreds
 LARGEST_WHOLE = 2**63
 LONGEST_NUMBER = 100
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
@@ -52,12 +49,8 @@ class _Open:
 
 
 def plain_yaml(text: str | bytes) -> Any:
-    """The one document in a YAML text; None where there is none.
-
-    Raises:
-        yaml.YAMLError: it is no YAML.
-        NotPlain: it is more than a configuration can be.
-    """
+    """The one document in a YAML text; None where there is none. Raises yaml.YAMLError: it is no YAML; NotPlain: it
+    is more than a configuration can be."""
     reading = _Reading()
     for event in _events(text):
         reading.take(event)

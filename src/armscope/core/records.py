@@ -15,12 +15,8 @@ HIDDEN = ".armscope"
 
 
 def tidy(home: Path, locked: str | None = None) -> None:
-    """Finish or remove what killed runs left in a folder.
-
-    Args:
-        home: the folder.
-        locked: the key of the result whose lock the caller holds.
-    """
+    """Finish or remove what killed runs left in a folder. ``locked``: the key of the result whose lock the caller
+    holds."""
     for left in sorted((home / HIDDEN).glob("*")):
         key = left.name.removesuffix(".part").removesuffix(".plan").removesuffix(".new").removesuffix(".lock")
         if key == left.name:

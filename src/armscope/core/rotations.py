@@ -6,8 +6,7 @@ import numpy as np
 
 from armscope.core.types import Array
 
-SMALL_TURN = 1e-4
-"""Below it (rad) the series of sin(a)/a and (1 - cos(a))/a^2 are exact to all digits after two terms."""
+SMALL_TURN = 1e-4  # Below it (rad) the series of sin(a)/a and (1 - cos(a))/a^2 are exact to all digits after two terms
 
 
 def turned_by(vectors: Array) -> Array:

@@ -34,10 +34,7 @@ def pipes_kept() -> Iterator[None]:
 
 def at_hand(path: Path | str) -> Path:
     """Where an input can be read from its start as often as one likes: a copy of a pipe, or of standard input ("-").
-
-    Raises:
-        OSError: it can't be read.
-    """
+    Raises OSError: it can't be read."""
     path, kept = Path(path), _COPIES.get()
     if kept is None or not _is_read_once(path):
         return path

@@ -11,8 +11,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 Array: TypeAlias = NDArray[np.float64]
 Indices: TypeAlias = NDArray[np.intp]
-Progress: TypeAlias = Callable[[str, float], None]
-"""Called with a sentence and the share of the work done, 0 ... 1."""
+Progress: TypeAlias = Callable[[str, float], None]  # Called with a sentence and the share of the work done, 0 ... 1
 
 
 def unheard(*told: object) -> None:

@@ -17,8 +17,7 @@ VARIED = {
 }  # fmt: skip
 """What is on the horizontal axis of a sweep, by the first word of its name; all others vary the model's order."""
 
-OPTIONAL = ("basis", "layout")
-"""Columns that may be left out or empty."""
+OPTIONAL = ("basis", "layout")  # Columns that may be left out or empty
 
 
 class Variant(Strict):
@@ -45,11 +44,8 @@ class Variant(Strict):
 
 
 def read_variants(path: Path | str) -> list[Variant]:
-    """The variants of a sweep's table (CSV).
-
-    Raises:
-        InputError: a column, value or id that can't be; it names row, column, rule.
-    """
+    """The variants of a sweep's table (CSV). Raises InputError: a column, value or id that can't be; it names row,
+    column, rule."""
     header, *rows = _lines(Path(path))
     for column in header:
         if column not in Variant.model_fields:

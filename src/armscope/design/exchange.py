@@ -22,10 +22,8 @@ from armscope.design.indices import observability, observability_slopes
 
 Rows = Indices
 
-WORTHWHILE = 1e-6
-"""A swap that gains less than this share is not made: it would only follow rounding."""
-SHORTLIST = (6, 30)
-"""Poses that may leave, and candidates that may enter, in a round of the exchange for O2 to O5."""
+WORTHWHILE = 1e-6  # A swap that gains less than this share is not made: it would only follow rounding
+SHORTLIST = (6, 30)  # Poses that may leave, and candidates that may enter, in a round of the exchange for O2 to O5
 ROUNDS = 200
 
 
@@ -97,17 +95,11 @@ def _log_volume(whitened: Array, rows: Rows) -> float:
 
 @dataclass(eq=False)
 class _Information:
-    """Inverse information of some poses, and what each of N candidates varies by under it.
+    """Inverse information of some poses, and what each of N candidates varies by under it."""
 
-    Attributes:
-        whitened: (3, N, p).
-        inverse: (p, p).
-        variance: (6, N) upper triangle of D_c: xx, xy, xz, yy, yz, zz.
-    """
-
-    whitened: Array
-    inverse: Array
-    variance: Array
+    whitened: Array  # (3, N, p)
+    inverse: Array  # (p, p)
+    variance: Array  # (6, N) upper triangle of D_c: xx, xy, xz, yy, yz, zz
 
     @staticmethod
     def of(whitened: Array, information: Array) -> _Information:

@@ -8,8 +8,7 @@ import numpy as np
 
 from armscope.core.types import Array
 
-FINENESS = 8
-"""Samples per wave of the highest harmonic at which extremes are looked for."""
+FINENESS = 8  # Samples per wave of the highest harmonic at which extremes are looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,18 +22,13 @@ class Limits:
 
 @dataclass(frozen=True, eq=False)
 class FourierPath:
-    """q_j(t) = centre_j + sum_k sine_jk sin(k w t) + cosine_jk cos(k w t), w = 2 pi / period.
+    """q_j(t) = centre_j + sum_k sine_jk sin(k w t) + cosine_jk cos(k w t), w = 2 pi / period."""
 
-    Attributes:
-        centre: (m,) rad.
-        sine, cosine: (m, K) rad.
-        period: s.
-    """
-
-    centre: Array
+    centre: Array  # (m,) rad
+    # sine, cosine: (m, K) rad
     sine: Array
     cosine: Array
-    period: float
+    period: float  # s
 
     @property
     def harmonics(self) -> int:

@@ -28,9 +28,8 @@ from armscope.fitting.exchanged_tool import exchanged_tool
 from armscope.fitting.linearisation import LinearisedTable, residuals
 from armscope.fitting.registration import fit_frames
 from armscope.fitting.set_ups import compare_bases, set_up_anew
-from armscope.measurement.channel import Channel, ChannelResiduals, nuisances
+from armscope.measurement.channel import CHANNELS, Channel, ChannelResiduals, nuisances, supported
 from armscope.measurement.noise import Noise, known_noise
-from armscope.measurement.registry import CHANNELS, supported
 from armscope.physics.effect import Placed
 from armscope.physics.frames import sharing_bases
 from armscope.physics.model import FittedModel

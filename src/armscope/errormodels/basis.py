@@ -34,21 +34,13 @@ class BasisKind(StrEnum):
 
 @dataclass(frozen=True)
 class Basis:
-    """The coordinates of one model on one set of rows; n terms of which m are kept.
-
-    Attributes:
-        kind: which coordinates.
-        dropped: the names of the terms that can't be told from earlier ones.
-        to_raw: T, n x m (rows of dropped terms are 0).
-        triangular: U, m x m.
-        orthonormal: the N x m columns of mean square 1 in which b is measured.
-    """
+    """The coordinates of one model on one set of rows; n terms of which m are kept."""
 
     kind: BasisKind
-    dropped: tuple[str, ...]
-    to_raw: Array
-    triangular: Array
-    orthonormal: Array
+    dropped: tuple[str, ...]  # the names of the terms that can't be told from earlier ones
+    to_raw: Array  # T, n x m (rows of dropped terms are 0)
+    triangular: Array  # U, m x m
+    orthonormal: Array  # the N x m columns of mean square 1 in which b is measured
 
     @property
     def dimensions(self) -> int:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
+from armscope.errormodels.basis import BasisKind, make_basis
 
 FAMILIES = ("polynomial", "fourier")
 SPACES = ("cartesian", "angular")
@@ -92,18 +93,12 @@ PAPER_MODELS = (FDP_CI, FDP_AI, SDP_CI, SDP_AI, POLYNOMIAL_4_AI, FOURIER_2_AI)
 
 @dataclass(frozen=True)
 class FeatureSet:
-    """The terms of one model for a given set of inputs.
-
-    Attributes:
-        spec: the model.
-        inputs: the names of all k inputs: px, py, pz, or theta1 ... thetak.
-        moving: which of them move in the identification rows and so have terms.
-        wavelengths_mm: of the first harmonic per input, for a Fourier series in millimetres; else None.
-    """
+    """The terms of one model for a given set of inputs."""
 
     spec: ModelSpec
-    inputs: tuple[str, ...]
-    moving: tuple[bool, ...]
+    inputs: tuple[str, ...]  # the names of all k inputs: px, py, pz, or theta1 ... thetak
+    moving: tuple[bool, ...]  # which of them move in the identification rows and so have terms
+    # of the first harmonic per input, for a Fourier series in millimetres; else None
     wavelengths_mm: tuple[float, ...] | None = None
 
     @property
@@ -117,11 +112,8 @@ class FeatureSet:
         return 1 + sum(self.moving) * self.spec.order * (2 if self.spec.family == "fourier" else 1)
 
     def matrix(self, inputs: ArrayLike) -> Array:
-        """The terms' values, N x terms, at ``inputs`` (N x k).
-
-        Raises:
-            ValueError: not the number of inputs that the model was made for, or numbers that are not finite.
-        """
+        """The terms' values, N x terms, at ``inputs`` (N x k). Raises ValueError: not the number of inputs that the
+        model was made for, or numbers that are not finite."""
         table = checked_inputs(inputs)
         if table.shape[1] != len(self.inputs):
             raise ValueError(
@@ -133,11 +125,8 @@ class FeatureSet:
         return np.stack(columns, axis=1)
 
     def slopes(self, inputs: ArrayLike) -> Array:
-        """The terms' derivatives by the inputs, N x terms x k, per mm or rad, at ``inputs`` (N x k).
-
-        Raises:
-            ValueError: as `matrix`.
-        """
+        """The terms' derivatives by the inputs, N x terms x k, per mm or rad, at ``inputs`` (N x k). Raises
+        ValueError: as `matrix`."""
         table = checked_inputs(inputs)
         slopes = np.zeros((len(table), self.coefficients_per_axis, len(self.inputs)))
         term = 1
@@ -192,11 +181,8 @@ class FeatureSet:
 
 
 def input_names(space: str, count: int) -> tuple[str, ...]:
-    """The names of ``count`` inputs: px, py, pz, or theta1, theta2, ...
-
-    Raises:
-        ValueError: Cartesian input that is not three numbers per row.
-    """
+    """The names of ``count`` inputs: px, py, pz, or theta1, theta2, ... Raises ValueError: Cartesian input that is
+    not three numbers per row."""
     if space == "cartesian":
         if count != 3:
             raise ValueError(f"{count} Cartesian inputs per row: must be 3 (px, py, pz)")
@@ -205,11 +191,7 @@ def input_names(space: str, count: int) -> tuple[str, ...]:
 
 
 def checked_inputs(inputs: ArrayLike) -> Array:
-    """``inputs`` as an N x k table of finite numbers.
-
-    Raises:
-        ValueError: it is none.
-    """
+    """``inputs`` as an N x k table of finite numbers. Raises ValueError: it is none."""
     table = np.asarray(inputs, dtype=float)
     if table.ndim != 2 or table.shape[0] == 0 or table.shape[1] == 0:
         raise ValueError(f"inputs of shape {table.shape}: must be rows x inputs, at least one of each")
@@ -217,3 +199,23 @@ def checked_inputs(inputs: ArrayLike) -> Array:
         row, column = np.argwhere(~np.isfinite(table))[0]
         raise ValueError(f"input {table[row, column]!r} in row {row}, column {column}: all must be finite")
     return table
+
+
+def fit_least_squares(features: FeatureSet, inputs: Array, errors_mm: Array) -> tuple[Array, Array]:
+    """Raw coefficients (axes x terms) and RMS residual (axes, mm) of the least-squares fit.
+
+    Args:
+        features: the model's terms.
+        inputs: N x k, mm or rad.
+        errors_mm: N x axes.
+
+    Returns:
+        Coefficients, axes x terms, in the terms' own units, and RMS residuals (axes,), mm.
+    """
+    columns = features.matrix(inputs)
+    basis = make_basis(BasisKind.STANDARDISED, columns, features.term_names)
+    # columns of similar size keep the SVD's cut-off away from terms like px^4, of 1e12 mm^4
+    independent = columns @ basis.to_raw
+    coordinates: Array = np.linalg.lstsq(independent, errors_mm, rcond=None)[0].astype(float)
+    residuals = errors_mm - independent @ coordinates
+    return basis.raw_coefficients(coordinates.T), np.sqrt(np.mean(np.square(residuals), axis=0))

@@ -1,4 +1,4 @@
-"""A fitted error model: coefficients of every seed beside the least-squares ones, and what they predict."""
+"""Fitted error models: every swarm's coefficients beside least squares, and models extended as the outlook has it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from enum import StrEnum
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.errormodels.basis import BasisKind
-from armscope.errormodels.features import FeatureSet
+from armscope.errormodels.features import FeatureSet, ModelSpec
+from armscope.errormodels.products import ProductFeatures, fit_products
+from armscope.errormodels.regions import Cut, blended, divide, fit_regions, halvings_of
 from armscope.swarm.result import StopReason
 
 
@@ -25,45 +28,28 @@ class Layout(StrEnum):
 
 @dataclass(frozen=True)
 class SwarmFit:
-    """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms.
+    """One model fitted to one set of rows, by swarms of several seeds; S seeds, A axes, n terms."""
 
-    Attributes:
-        label: whose rows: the robot, recording or sub-volume.
-        features: the model's terms.
-        basis: the coordinates that the swarm searched in.
-        method: "swarm" or "random search".
-        seeds: the seeds, S.
-        axes: the names of the errors' axes, A: ("x", "y", "z") or ("error",).
-        dropped: terms whose coefficients are 0 because they can't be told from earlier ones.
-        coefficients: in raw units (mm per unit of the term), S x A x n.
-        fitness_mm: RMS residual on the identification rows, S x A.
-        layout: "per axis" (a swarm for each axis) or "joint" (one swarm in 3 n dimensions, as the paper describes).
-        least_squares: the least-squares coefficients, A x n.
-        least_squares_mm: their RMS residual, A.
-        reasons: why each swarm stopped, S x H of `StopReason`; H swarms per seed: A, or one for all axes together.
-        iterations: how many iterations each used, S x H.
-        history_mm: what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual
-            of its axis, or of the error vector (3D) in the joint layout.
-        rows: the number of identification rows.
-        particles: evaluations per iteration.
-    """
-
-    label: str
-    features: FeatureSet
-    basis: BasisKind
-    method: str
-    seeds: tuple[int, ...]
-    axes: tuple[str, ...]
-    dropped: tuple[str, ...]
-    coefficients: Array
-    fitness_mm: Array
-    least_squares: Array
-    least_squares_mm: Array
+    label: str  # whose rows: the robot, recording or sub-volume
+    features: FeatureSet  # the model's terms
+    basis: BasisKind  # the coordinates that the swarm searched in
+    method: str  # "swarm" or "random search"
+    seeds: tuple[int, ...]  # the seeds, S
+    axes: tuple[str, ...]  # the names of the errors' axes, A: ("x", "y", "z") or ("error",)
+    dropped: tuple[str, ...]  # terms whose coefficients are 0 because they can't be told from earlier ones
+    coefficients: Array  # in raw units (mm per unit of the term), S x A x n
+    fitness_mm: Array  # RMS residual on the identification rows, S x A
+    least_squares: Array  # the least-squares coefficients, A x n
+    least_squares_mm: Array  # their RMS residual, A
+    # why each swarm stopped, S x H of `StopReason`; H swarms per seed: A, or one for all axes together
     reasons: NDArray[np.object_]
-    iterations: NDArray[np.int64]
+    iterations: NDArray[np.int64]  # how many iterations each used, S x H
+    # what each swarm minimised, at the start and after each iteration, S x H x (T + 1): the RMS residual of its axis,
+    # or of the error vector (3D) in the joint layout
     history_mm: Array
-    rows: int
+    rows: int  # the number of identification rows
     particles: int
+    # "per axis" (a swarm for each axis) or "joint" (one swarm in 3 n dimensions, as the paper describes)
     layout: Layout = Layout.PER_AXIS
 
     @property
@@ -189,3 +175,59 @@ def _packed(history: Array) -> dict[str, Any]:
 def _unpacked(content: dict[str, Any]) -> Array:
     bits = np.frombuffer(base64.b64decode(content["float32"]), dtype="<f4")
     return bits.reshape(content["shape"]).astype(float)
+
+
+@dataclass(frozen=True)
+class ModelSet:
+    """Which models are fitted."""
+
+    plain: tuple[ModelSpec, ...] = ()
+    products: tuple[ModelSpec, ...] = ()  # with a sparse choice of products
+    regions: tuple[tuple[ModelSpec, int], ...] = ()  # divided into so many blended regions
+
+
+@dataclass(frozen=True, eq=False)
+class ExtendedModel:
+    """A model fitted by least squares."""
+
+    name: str  # the model's name and how it is extended
+    features: FeatureSet | ProductFeatures
+    coefficients: Array  # (regions, axes, terms) mm per unit of a term
+    cut: Cut | None = None  # the borders of the regions; None for a single one
+
+    def predict(self, inputs: ArrayLike) -> Array:
+        """(N, axes) mm at inputs (N, k), mm or rad."""
+        return blended(self.features, self.cut, self.coefficients, inputs)
+
+
+def with_regions(spec: ModelSpec, inputs: Array, errors_mm: Array, count: int) -> ExtendedModel:
+    """A model divided into blended regions.
+
+    Args:
+        spec: of every region.
+        inputs, errors_mm: (M, k), (M, axes) identification rows.
+        count: 1, 2, 4, ... regions.
+
+    Returns:
+        The fitted model.
+    """
+    features, cut = spec.features(inputs), divide(inputs, halvings_of(count))
+    name = f"{spec.name}, {count} regions" if count > 1 else spec.name
+    return ExtendedModel(name, features, fit_regions(features, cut, inputs, errors_mm), cut)
+
+
+def with_products(
+    spec: ModelSpec, inputs: Array, errors_mm: Array, rng: np.random.Generator
+) -> tuple[ExtendedModel, pd.DataFrame]:
+    """A model with a sparse choice of products.
+
+    Args:
+        spec: whose products.
+        inputs, errors_mm: (M, k), (M, axes) identification rows.
+        rng: draws the folds.
+
+    Returns:
+        The fitted model, and how the number of terms was chosen (see `fit_products`).
+    """
+    features, coefficients, compared = fit_products(spec, inputs, errors_mm, rng)
+    return ExtendedModel(features.name, features, coefficients[None]), compared

@@ -23,32 +23,24 @@ from armscope.core.types import Array
 from armscope.errormodels.features import STILL, ModelSpec, checked_inputs, input_names
 from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 
-Factor = tuple[int, str, int]
-"""(input, "T" or "cos" or "sin", order)."""
+Factor = tuple[int, str, int]  # (input, "T" or "cos" or "sin", order)
 Term = tuple[Factor, ...]
 
-MOST_INPUTS = 3
-"""A term multiplies at most so many inputs."""
-LARGEST_SHARE = 0.4
-"""At most so many terms per row."""
+MOST_INPUTS = 3  # A term multiplies at most so many inputs
+LARGEST_SHARE = 0.4  # At most so many terms per row
 CARRIES_NOTHING = 1e-10
 """A column whose square falls to this share once the chosen ones are taken out of it is one of their combinations."""
 
 
 @dataclass(frozen=True, eq=False)
 class ProductFeatures:
-    """The chosen products, in the form of `FeatureSet`; k inputs, n terms.
+    """The chosen products, in the form of `FeatureSet`; k inputs, n terms."""
 
-    Attributes:
-        spec: family, total order, and space of the inputs.
-        centre, half_range: (k,) of the identification rows; inputs that stand still have half_range 0 and no factor.
-        terms: in the order in which they entered; () is the constant.
-    """
-
-    spec: ModelSpec
+    spec: ModelSpec  # family, total order, and space of the inputs
+    # centre, half_range: (k,) of the identification rows; inputs that stand still have half_range 0 and no factor
     centre: Array
     half_range: Array
-    terms: tuple[Term, ...]
+    terms: tuple[Term, ...]  # in the order in which they entered; () is the constant
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -8,14 +8,12 @@ from armscope.core.averages import rms
 from armscope.core.grouping import random_parts, same_configuration
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array, Indices
-from armscope.errormodels.features import PAPER_MODELS, ModelSpec
+from armscope.errormodels.features import PAPER_MODELS, ModelSpec, fit_least_squares
 from armscope.errormodels.folds import FOLDS
-from armscope.errormodels.least_squares import fit_least_squares
 from armscope.recordings import Recordings
 from armscope.robot import Arm, forward_kinematics
 
-MOST_ROWS = 4000
-"""Longer tables are thinned: the comparison does not need more."""
+MOST_ROWS = 4000  # Longer tables are thinned: the comparison does not need more
 
 
 def held_out_rms(arm: Arm, recordings: Recordings, residual: Array) -> list[tuple[str, float]]:

@@ -21,26 +21,18 @@ from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
 from armscope.errormodels.folds import FOLDS, compare_sizes, fold_numbers
 from armscope.errormodels.products import ProductFeatures
 
-OVERLAP = 0.5
-"""Half the width of the blended band, in standard deviations of the rows that a cut divides."""
-ROWS_PER_TERM = 1.5
-"""A region needs at least so many rows (by weight) per term."""
+OVERLAP = 0.5  # Half the width of the blended band, in standard deviations of the rows that a cut divides
+ROWS_PER_TERM = 1.5  # A region needs at least so many rows (by weight) per term
 
 
 @dataclass(frozen=True)
 class Cut:
-    """A border between two regions, each of which may be divided again.
-
-    Attributes:
-        axis: which input.
-        at: where, in its unit.
-        half_width: of the blended band.
-        below, above: how the sides are divided; None: not.
-    """
+    """A border between two regions, each of which may be divided again."""
 
     axis: int
-    at: float
-    half_width: float
+    at: float  # where, in its unit
+    half_width: float  # of the blended band
+    # below, above: how the sides are divided; None: not
     below: Cut | None = None
     above: Cut | None = None
 
@@ -189,11 +181,7 @@ def _predicted(spec: ModelSpec, halvings: int, inputs: Array, errors_mm: Array, 
 
 
 def halvings_of(regions: int) -> int:
-    """How many times the rows are halved for a number of regions.
-
-    Raises:
-        ValueError: not a power of two.
-    """
+    """How many times the rows are halved for a number of regions. Raises ValueError: not a power of two."""
     if regions < 1 or regions & (regions - 1):
         raise ValueError(f"{regions} regions: must be 1, 2, 4, 8, ...")
     return regions.bit_length() - 1

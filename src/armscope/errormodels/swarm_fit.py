@@ -18,9 +18,8 @@ from numpy.typing import ArrayLike
 
 from armscope.core.types import Array
 from armscope.errormodels.basis import Basis, BasisKind, make_basis
-from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs
+from armscope.errormodels.features import FeatureSet, ModelSpec, checked_inputs, fit_least_squares
 from armscope.errormodels.fitted import Layout, SwarmFit
-from armscope.errormodels.least_squares import fit_least_squares
 from armscope.swarm.least_squares import minimise_least_squares
 from armscope.swarm.least_squares_objective import LeastSquares
 from armscope.swarm.random_search import random_search

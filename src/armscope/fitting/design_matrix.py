@@ -18,7 +18,7 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
-from armscope.measurement.positions import POSITIONS
+from armscope.measurement.channel import POSITIONS
 from armscope.measurement.whitening import WhitenedPosture
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Direction, Driver, Term

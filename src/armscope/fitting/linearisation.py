@@ -14,9 +14,7 @@ import numpy as np
 from armscope.core.parallel import each_piece, shared_array
 from armscope.core.types import Array, Indices
 from armscope.fitting.constants import STEPS
-from armscope.measurement.channel import Channel, ChannelResiduals
-from armscope.measurement.positions import POSITIONS
-from armscope.measurement.registry import supported
+from armscope.measurement.channel import POSITIONS, Channel, ChannelResiduals, supported
 from armscope.physics.model import FittedModel
 from armscope.physics.scene import Posture, Scene
 from armscope.recordings import Recordings

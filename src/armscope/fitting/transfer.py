@@ -17,8 +17,7 @@ from armscope.fitting.gauss_newton import NonlinearProblem, Quadratic, gauss_new
 from armscope.fitting.linearisation import linearised, point_residuals
 from armscope.fitting.registration import fit_frames
 from armscope.measurement import robust
-from armscope.measurement.channel import retracted
-from armscope.measurement.registry import supported
+from armscope.measurement.channel import retracted, supported
 from armscope.physics.drivers import follows
 from armscope.physics.effect import Part, Placed, Term
 from armscope.physics.frames import free_frames

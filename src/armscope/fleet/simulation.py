@@ -19,8 +19,7 @@ WEAKNESSES = {
     "parallelogram-120kg": ("backlash", "joint 1"),
 }
 """What many arms of each type have."""
-FEW = ("joint_offset", "link_geometry")
-"""What each arm may have besides."""
+FEW = ("joint_offset", "link_geometry")  # What each arm may have besides
 
 
 def simulate(count: int, seed: int, robots: Path, output: Path) -> None:

@@ -11,14 +11,12 @@ import pandas as pd
 
 from armscope.core.averages import robust_scale
 from armscope.fleet.constants import FLEET
-from armscope.fleet.diagnosing import FAILURE
-from armscope.fleet.members import Member
+from armscope.fleet.members import FAILURE, Member
 from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 from armscope.verdict.schema import Verdict
 
-NO_VERDICT = "no verdict"
-"""What stands as the answer of a diagnosis that was not made."""
+NO_VERDICT = "no verdict"  # What stands as the answer of a diagnosis that was not made
 
 
 def verdicts(members: Sequence[Member], folders: Sequence[Path]) -> tuple[dict[str, Verdict], dict[str, str]]:

@@ -17,21 +17,13 @@ from armscope.robot import Arm
 
 @dataclass(frozen=True)
 class Noise:
-    """What is known of the noise beforehand: mm per axis, 0 where nothing is, and where from.
+    """What is known of the noise beforehand: mm per axis, 0 where nothing is, and where from."""
 
-    Attributes:
-        least_mm: it is never taken to be below.
-        stated_mm: as somebody stated it.
-        source: where it is from, in words.
-        repeated_mm: how far repeats of a pose scatter.
-        repeats: rows beyond the first of their pose, by which this is known.
-    """
-
-    least_mm: float
-    stated_mm: float
-    source: str
-    repeated_mm: float = 0.0
-    repeats: int = 0
+    least_mm: float  # it is never taken to be below
+    stated_mm: float  # as somebody stated it
+    source: str  # where it is from, in words
+    repeated_mm: float = 0.0  # how far repeats of a pose scatter
+    repeats: int = 0  # rows beyond the first of their pose, by which this is known
 
 
 def known_noise(arm: Arm, recordings: Recordings) -> Noise:

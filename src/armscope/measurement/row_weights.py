@@ -9,23 +9,17 @@ from numpy.typing import NDArray
 
 from armscope.core.types import Array, Indices
 from armscope.measurement import robust
-from armscope.measurement.channel import Channel, ChannelResiduals
+from armscope.measurement.channel import POSITIONS, Channel, ChannelResiduals
 from armscope.measurement.constants import WEIGHTS
-from armscope.measurement.positions import POSITIONS
 from armscope.measurement.whitening import Whitener
 
 
 @dataclass(frozen=True, eq=False)
 class RowNoise:
-    """What is known of N rows' noise beside its size.
+    """What is known of N rows' noise beside its size."""
 
-    Attributes:
-        uncertainty: (N,) of the reference channel, relative to the usual row's.
-        independence_weight: (N,) of an independent row that each stands for: a pose visited again is no new pose.
-    """
-
-    uncertainty: Array
-    independence_weight: Array
+    uncertainty: Array  # (N,) of the reference channel, relative to the usual row's
+    independence_weight: Array  # (N,) of an independent row that each stands for: a pose visited again is no new pose
 
     @property
     def nominal_weight(self) -> Array:
@@ -74,20 +68,13 @@ class RowNoise:
 
 @dataclass(frozen=True, eq=False)
 class ChannelWeights:
-    """Weights of one channel's N rows.
-
-    Attributes:
-        weight: (N,), 0 where not measured.
-        nominal_weight: (N,) the weights if no row were a bad shot; None: ones.
-        whitening: (N, width, width) of each row, or None.
-        scale: m per unit of the channel, by which it counts beside the reference: the ratio of their noises.
-    """
+    """Weights of one channel's N rows."""
 
     channel: Channel
-    weight: Array
-    nominal_weight: Array | None = None
-    whitening: Array | None = None
-    scale: float = 1.0
+    weight: Array  # (N,), 0 where not measured
+    nominal_weight: Array | None = None  # (N,) the weights if no row were a bad shot; None: ones
+    whitening: Array | None = None  # (N, width, width) of each row, or None
+    scale: float = 1.0  # m per unit of the channel, by which it counts beside the reference: the ratio of their noises
 
     @property
     def robust_weight(self) -> Array:
@@ -123,15 +110,10 @@ class ChannelWeights:
 
 @dataclass(frozen=True, eq=False)
 class RowWeights:
-    """Weights of N rows.
+    """Weights of N rows."""
 
-    Attributes:
-        of_channels: per channel; the reference first.
-        independence_weight: (N,) of an independent row that each row stands for; None: ones.
-    """
-
-    of_channels: tuple[ChannelWeights, ...]
-    independence_weight: Array | None = None
+    of_channels: tuple[ChannelWeights, ...]  # per channel; the reference first
+    independence_weight: Array | None = None  # (N,) of an independent row that each row stands for; None: ones
 
     @classmethod
     def of_positions(cls, weight: Array) -> RowWeights:

@@ -16,13 +16,10 @@ from armscope.physics.scene import Posture, Scene
 
 @dataclass(frozen=True, eq=False)
 class Whitener:
-    """W^1/2 of n rows, channel by channel.
+    """W^1/2 of n rows, channel by channel."""
 
-    Attributes:
-        factors: per channel what its numbers are multiplied by: (n,), or (n, width, width) where they hang together;
-            with the root of a row's weight and the channel's scale (m per unit).
-    """
-
+    # per channel what its numbers are multiplied by: (n,), or (n, width, width) where they hang together; with the root
+    # of a row's weight and the channel's scale (m per unit)
     factors: tuple[tuple[Channel, Array], ...]
 
     @classmethod

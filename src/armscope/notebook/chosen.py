@@ -9,9 +9,9 @@ import pandas as pd
 
 from armscope.core.told import InWords
 from armscope.notebook.given import refuse_unknown
-from armscope.poses.body_words import surroundings_notes
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RivalOptions
+from armscope.poses.obstacles import surroundings_notes
 from armscope.poses.options import PoseOptions
 from armscope.robot import Arm
 

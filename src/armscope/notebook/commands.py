@@ -18,9 +18,8 @@ from armscope.check.report import CheckReport
 from armscope.check.report import check as check_table
 from armscope.comparison import Comparison
 from armscope.comparison import compare as compare_recordings
-from armscope.compensation.black_box import ErrorModel
+from armscope.compensation.black_box import ErrorModel, load_error_model
 from armscope.compensation.compensate import compensate_black_box, compensate_physical
-from armscope.compensation.error_model_file import load_error_model
 from armscope.compensation.path import WantedPath
 from armscope.compensation.physical import Identified, identified_beside, identified_on
 from armscope.compensation.predicting import predict_file, predict_rows

@@ -31,11 +31,7 @@ def arm_of(robot: Robot | None, recordings: Table) -> Robot | None:
 
 
 def arm_for(robot: Robot | None, recordings: Table) -> Robot:
-    """The arm as said, else that of a folder that was given for a table.
-
-    Raises:
-        InputError: there is none.
-    """
+    """The arm as said, else that of a folder that was given for a table. Raises InputError: there is none."""
     if robot is None and isinstance(recordings, str | Path):
         return robot_for(None, Path(recordings))
     if robot is None:
@@ -79,11 +75,7 @@ def names_of(recordings: Sequence[Table], names: Sequence[str]) -> list[str]:
 
 
 def described_file(robot: Robot) -> Path | str:
-    """The file of a robot: inverse dynamics needs what an `Arm` does not hold.
-
-    Raises:
-        InputError: an arm was given.
-    """
+    """The file of a robot: inverse dynamics needs what an `Arm` does not hold. Raises InputError: an arm was given."""
     if not isinstance(robot, str | Path):
         raise InputError("robot", "", type(robot).__name__, "the path of robot.yaml, for a table of motions")
     return robot

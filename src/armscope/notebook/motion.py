@@ -50,10 +50,6 @@ class MotionDiagnosed(MotionDiagnosis):
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose motions.csv -o folder` writes.
 
-        Args:
-            folder: for report.html, verdict.json, model.yaml, exports and figures.
-            force: overwrite files that armscope did not write.
-
         Returns:
             The page's path.
 
@@ -108,10 +104,6 @@ def diagnose_moving(motions: MotionTable, robot: Path | str, **options: Any) -> 
 
 def check_motions(motions: MotionTable, robot: Path | str | None = None) -> MotionCheck:
     """What a table of motions holds and what looks wrong in it.
-
-    Args:
-        motions: the table.
-        robot: robot.yaml, to compare torques with its masses.
 
     Returns:
         As `armscope check`.

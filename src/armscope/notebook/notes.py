@@ -18,15 +18,7 @@ class PosesWarning(UserWarning):
 
 
 def with_notes(given: tuple[Given, Iterable[str]], kind: type[UserWarning] = PredictionWarning) -> Given:
-    """What came with notes, which are told as warnings.
-
-    Args:
-        given: anything, and what is to be said about it.
-        kind: of warning.
-
-    Returns:
-        The first.
-    """
+    """What came with notes, which are told as warnings."""
     found, notes = given
     for note in notes:
         warnings.warn(note, kind, stacklevel=3)

@@ -15,13 +15,11 @@ from armscope.core.told import paragraphs, table
 from armscope.notebook.notes import with_notes
 from armscope.recordings import Recordings, as_recordings, read_recordings
 from armscope.report.pages.diagnosis import write_report
-from armscope.report.sectioning import figure_named
+from armscope.report.sectioning import Subject, figure_named
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.subject import Subject
 from armscope.report.svg import Drawing
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised, rows_it_rests_on
 from armscope.verdict.files import write_verdict
-from armscope.verdict.promise import promised, rows_it_rests_on
 from armscope.verdict.wording import millimetres, percent
 
 
@@ -56,10 +54,6 @@ class Diagnosed(Diagnosis):
 
     def report(self, folder: Path | str = "armscope-report", force: bool = False) -> Path:
         """Write all that `armscope diagnose -o folder` writes.
-
-        Args:
-            folder: for report.html, verdict.json, model.yaml and figures.
-            force: overwrite files that armscope did not write.
 
         Returns:
             The page's path.

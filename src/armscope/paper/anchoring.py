@@ -29,20 +29,13 @@ ITERATIONS = 20
 
 @dataclass(frozen=True, eq=False)
 class AnchoredRobots:
-    """Robots that agree with the printed equations.
+    """Robots that agree with the printed equations."""
 
-    Attributes:
-        names: "anchored", "ensemble 1", ...
-        in_sigmas: (R, K) geometric errors in tolerances.
-        errors: which errors these are.
-        information: (K,) share of each error's prior variance that the printed equations take away.
-        disagreement_mm: (R,) largest difference at an identification pose between the refitted and the printed FDP(CI).
-    """
-
-    names: tuple[str, ...]
-    in_sigmas: Array
-    errors: GeometricErrors
-    information: Array
+    names: tuple[str, ...]  # "anchored", "ensemble 1", ...
+    in_sigmas: Array  # (R, K) geometric errors in tolerances
+    errors: GeometricErrors  # which errors these are
+    information: Array  # (K,) share of each error's prior variance that the printed equations take away
+    # (R,) largest difference at an identification pose between the refitted and the printed FDP(CI)
     disagreement_mm: Array
 
     def to_table(self) -> pd.DataFrame:

@@ -35,7 +35,7 @@ from armscope.paper.printed import (
     printed_matrix,
     printed_table2,
 )
-from armscope.world.trajectories import archimedes_spiral
+from armscope.world.of_the_paper import archimedes_spiral
 
 MODELS = ("FDP(CI)", "SDP(CI)")
 CHECKS = (*MODELS, " and ".join(MODELS))

@@ -11,19 +11,14 @@ Corner = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class LeastSearch:
-    """Below any of these nothing found does not mean that there is nothing.
+    """Below any of these nothing found does not mean that there is nothing."""
 
-    Attributes:
-        corner_samples: sets of corners; measured: 4,096 and 40,000 of them give the same answers.
-        step_mm: between rises; measured: steps of 750 mm miss paths on trajectory III that steps of 20 mm find.
-        rise_mm: up and down; judgement: a path that rises as far as an arm of this size reaches to one side.
-        side_mm: of the box; judgement: the same to either side.
-    """
-
-    corner_samples: int = 1000
+    corner_samples: int = 1000  # sets of corners; measured: 4,096 and 40,000 of them give the same answers
+    # between rises; measured: steps of 750 mm miss paths on trajectory III that steps of 20 mm find
     step_mm: float = 50.0
+    # up and down; judgement: a path that rises as far as an arm of this size reaches to one side
     rise_mm: float = 1000.0
-    side_mm: float = 3000.0
+    side_mm: float = 3000.0  # of the box; judgement: the same to either side
 
 
 LEAST = LeastSearch()
@@ -31,25 +26,18 @@ LEAST = LeastSearch()
 
 @dataclass(frozen=True)
 class AuditScope:
-    """What is scanned, mm. The box bounds where a tool of this arm can be at all (`assumed`; see `armscope.robot`).
+    """What is scanned, mm. The box bounds where a tool of this arm can be at all (`assumed`; see `armscope.robot`)."""
 
-    Attributes:
-        rises: values tried for the change of the third coordinate of trajectories II and III.
-        low, high: box of the corners of trajectory I and of the identification poses.
-        corner_samples: sets of three corners tried for trajectory I.
-        first_corner, spiral_starts: as printed.
-        seed: of the corner sets.
-        search_generations: of the search for the best corners, where none of the samples obeys.
-    """
-
+    # values tried for the change of the third coordinate of trajectories II and III
     rises: tuple[float, ...] = tuple(float(rise) for rise in np.arange(-1500, 1501, 20))
+    # low, high: box of the corners of trajectory I and of the identification poses
     low: Corner = (-2500.0, -2500.0, -1500.0)
     high: Corner = (2500.0, 2500.0, 3000.0)
-    corner_samples: int = 4096
+    corner_samples: int = 4096  # sets of three corners tried for trajectory I
     first_corner: Corner = (1100.0, 800.0, 600.0)
     spiral_starts: tuple[Corner, ...] = ((1200.0, -600.0, 600.0), (500.0, 500.0, 1400.0))
-    seed: int = 2006
-    search_generations: int = 100
+    seed: int = 2006  # of the corner sets
+    search_generations: int = 100  # of the search for the best corners, where none of the samples obeys
 
     @property
     def in_words(self) -> str:

@@ -9,8 +9,8 @@ import pandas as pd
 
 from armscope.core.types import Array
 from armscope.errormodels.fitted import SwarmFit
+from armscope.paper.beside_printed import ENSEMBLE_RANGE
 from armscope.paper.measurements import Measurements
-from armscope.paper.table2 import ENSEMBLE_RANGE
 
 TRUE = "true"
 LOW, HIGH = ["low_x_mm", "low_y_mm", "low_z_mm"], ["high_x_mm", "high_y_mm", "high_z_mm"]
@@ -20,7 +20,6 @@ def ensemble_bands(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.D
     """5 and 95 % of the robots at every point.
 
     Args:
-        measurements: of the drawn robots.
         fits: of all of them; the median over the seeds counts.
 
     Returns:

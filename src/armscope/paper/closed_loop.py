@@ -21,8 +21,7 @@ from armscope.compensation.closed_loop import (
 from armscope.compensation.physical import identified_on
 from armscope.core.types import Array
 from armscope.diagnosis import Settings, diagnose
-from armscope.errormodels.extended import ExtendedModel, ModelSet, with_products, with_regions
-from armscope.errormodels.fitted import SwarmFit
+from armscope.errormodels.fitted import ExtendedModel, ModelSet, SwarmFit, with_products, with_regions
 from armscope.paper.measurements import Measurements, PoseSet
 from armscope.physics.model import Base
 from armscope.recordings import Recordings

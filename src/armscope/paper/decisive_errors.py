@@ -17,10 +17,8 @@ from armscope.core.types import Array
 
 MOST_ERRORS = 3
 FOLDS = 10
-WORTH = 0.02
-"""An error enters if the share explained grows by this."""
-SPEAKS_FROM = 0.1
-"""Below this share, nothing is said to decide."""
+WORTH = 0.02  # An error enters if the share explained grows by this
+SPEAKS_FROM = 0.1  # Below this share, nothing is said to decide
 
 MEANINGS = {
     "a": "length a", "alpha": "twist α", "d": "offset d", "theta": "zero of joint", "beta": "tilt of axis",
@@ -31,15 +29,10 @@ MEANINGS = {
 
 @dataclass(frozen=True)
 class Reason:
-    """What decides a claim.
+    """What decides a claim."""
 
-    Attributes:
-        errors: names, the strongest first.
-        share: of the number's variance over the robots, explained on robots held out.
-    """
-
-    errors: tuple[str, ...]
-    share: float
+    errors: tuple[str, ...]  # names, the strongest first
+    share: float  # of the number's variance over the robots, explained on robots held out
 
 
 def reasons(per_robot: pd.DataFrame, geometric: pd.DataFrame) -> pd.DataFrame:

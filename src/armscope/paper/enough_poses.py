@@ -12,26 +12,17 @@ import pandas as pd
 
 from armscope.errormodels.features import FDP_CI
 from armscope.paper.identification_poses import candidate_poses
-from armscope.paper.study import StudyPlan
-from armscope.paper.virtual import VirtualStudy, identification_ranges
+from armscope.paper.virtual import StudyPlan, VirtualStudy, identification_ranges
 from armscope.robot import forward_kinematics
 
 COUNTS = (6, 8, 10, 12, 15, 20, 30, 40, 60, 85, 120, 170, 340)
 PRINTED_COUNT = 85
-TOLERATED = 1.1
-"""A number of poses suffices if the error is at most this many times that with the largest number."""
+TOLERATED = 1.1  # A number of poses suffices if the error is at most this many times that with the largest number
 
 
 def enough_poses(plan: StudyPlan, study: VirtualStudy) -> pd.DataFrame:
-    """The error left on the test trajectories against the number of poses, for every robot of a study.
-
-    Args:
-        plan: how robots, poses and tracker are made.
-        study: the robots and what was measured of them.
-
-    Returns:
-        Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out).
-    """
+    """The error left on the test trajectories against the number of poses, for every robot of a study. Returns
+    Columns robot, model, poses, rms_mm (3D, over the test trajectories together, held out)."""
     paths = study.measurements.held_out
     followed = np.concatenate([each.motor_angles for each in paths])
     ranges = identification_ranges(plan.errors, followed, plan.poses)

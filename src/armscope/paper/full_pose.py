@@ -16,10 +16,10 @@ from scipy.spatial.transform import Rotation
 
 from armscope.compensation.closed_loop import NO_MODEL, Corrector, black_box_candidate
 from armscope.compensation.fitting import fit_error_model
-from armscope.compensation.path import WantedPath, as_path
+from armscope.compensation.path import as_path
 from armscope.core.averages import rms_distance
 from armscope.core.types import Array
-from armscope.errormodels.extended import ModelSet
+from armscope.errormodels.fitted import ModelSet
 from armscope.paper.closed_loop import DIAGNOSED, diagnosed_candidate
 from armscope.paper.identification_poses import candidate_poses, choose_identification_poses, joint_ranges
 from armscope.paper.measurements import Measurements
@@ -30,23 +30,16 @@ from armscope.robot import Arm, Chain, chain
 from armscope.robot.inverse import follow_path
 from armscope.world.tolerances import GeometricErrors, geometric_errors
 
-BENT_WRIST = {4: 0.3, 5: 0.7}
-"""Angles of the wrist's motors along the trajectories, rad (assumed)."""
+BENT_WRIST = {4: 0.3, 5: 0.7}  # Angles of the wrist's motors along the trajectories, rad (assumed)
 MARGIN_RAD = 0.1
 WRIST_MARGIN_RAD = 0.3
 """The identification poses' ranges are the trajectories', widened by this (assumed; wrists need room to correct)."""
 CANDIDATES = 2000
-NOISE_MM, NOISE_MRAD = 0.03, 0.05
-"""1-sigma per axis of a tracker with an orientation probe (assumed)."""
+NOISE_MM, NOISE_MRAD = 0.03, 0.05  # 1-sigma per axis of a tracker with an orientation probe (assumed)
 
 
 def paper_full_pose(
-    arm: Arm,
-    measurements: Measurements,
-    errors: Array,
-    models: ModelSet,
-    seed: int = 0,
-    diagnosed: bool = True,
+    arm: Arm, measurements: Measurements, errors: Array, models: ModelSet, seed: int = 0, diagnosed: bool = True
 ) -> pd.DataFrame:
     """Model by trajectory by stage, position and orientation, for the first robot of a study.
 
@@ -84,7 +77,7 @@ def paper_full_pose(
         for name, angles in paths.items():
             real = _pose(truth.frames(angles, errors / truth.sigmas))
             rows += _rows(title, name, "prediction", *_gap(real, model.tool_pose(angles)))
-            result = model.compensate(_wanted(arm, angles, name))
+            result = model.compensate(as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm))
             reached, gap = result.reached, (np.empty((0, 3)), np.empty((0, 3)))
             if reached.any():
                 loop = _pose(truth.frames(result.commands[reached], errors / truth.sigmas))
@@ -123,11 +116,6 @@ def _table(angles: Array, points: Array, rotations: Array) -> pd.DataFrame:
     columns |= {f"{axis}_mm": points[:, n] * 1e3 for n, axis in enumerate("xyz")}
     quaternions = Rotation.from_matrix(rotations).as_quat(canonical=True)
     return pd.DataFrame(columns | dict(zip(("qx", "qy", "qz", "qw"), quaternions.T, strict=True)))
-
-
-def _wanted(arm: Arm, angles: Array, name: str) -> WantedPath:
-    """Nominal poses, wanted on the branch of the nominal commands."""
-    return as_path(_table(angles, *_nominal(arm, angles)), f"trajectory {name}", arm)
 
 
 def _models(arm: Arm, recordings: Recordings, models: ModelSet) -> dict[str, Corrector]:

@@ -18,29 +18,20 @@ from numpy.typing import ArrayLike
 
 from armscope.core.types import Array, Indices
 
-IDENTIFIABLE = 1e-6
-"""A combination of parameters counts as identifiable above this share of the largest singular value."""
+IDENTIFIABLE = 1e-6  # A combination of parameters counts as identifiable above this share of the largest singular value
 
 EXCHANGES = 200
-RANDOM_DRAWS = 50
-"""Choices at random that the index is compared with."""
+RANDOM_DRAWS = 50  # Choices at random that the index is compared with
 
 
 @dataclass(frozen=True)
 class ChosenPoses:
-    """Rows chosen from candidates, and what the choice is worth.
+    """Rows chosen from candidates, and what the choice is worth."""
 
-    Attributes:
-        rows: (n,) indices of the chosen candidates, ascending.
-        index: observability index O1 of the chosen.
-        random_index: median O1 of as many candidates taken at random.
-        n_parameters: p, identifiable combinations of parameters.
-    """
-
-    rows: Indices
-    index: float
-    random_index: float
-    n_parameters: int
+    rows: Indices  # (n,) indices of the chosen candidates, ascending
+    index: float  # observability index O1 of the chosen
+    random_index: float  # median O1 of as many candidates taken at random
+    n_parameters: int  # p, identifiable combinations of parameters
 
 
 def candidate_poses(low: ArrayLike, high: ArrayLike, count: int, seed: int) -> Array:

@@ -20,19 +20,12 @@ from armscope.recordings.columns import AXES_MM, ERROR_COLUMNS, angle_columns
 
 @dataclass(frozen=True, eq=False)
 class PoseSet:
-    """N poses of one trajectory, measured on R robots.
+    """N poses of one trajectory, measured on R robots."""
 
-    Attributes:
-        name: "identification", "test 1", ..., or "held out" for real arms.
-        motor_angles: (N, m) commanded, rad.
-        nominal_mm: (N, 3) nominal tool points in the base frame, mm.
-        errors_mm: (R, N, 3) measured minus nominal, mm.
-    """
-
-    name: str
-    motor_angles: Array
-    nominal_mm: Array
-    errors_mm: Array
+    name: str  # "identification", "test 1", ..., or "held out" for real arms
+    motor_angles: Array  # (N, m) commanded, rad
+    nominal_mm: Array  # (N, 3) nominal tool points in the base frame, mm
+    errors_mm: Array  # (R, N, 3) measured minus nominal, mm
 
     def inputs(self, spec: ModelSpec) -> Array:
         """What a model takes: nominal positions (N, 3) mm, or motor angles (N, m) rad."""

@@ -25,26 +25,18 @@ from armscope.world.tolerances import geometric_errors
 
 HELD_OUT = "held out"
 MOST_CANDIDATES = 3000
-LARGEST_SHARE = 0.7
-"""At most this share of the configurations is used for identification, where there are few."""
+LARGEST_SHARE = 0.7  # At most this share of the configurations is used for identification, where there are few
 
 
 @dataclass(frozen=True, eq=False)
 class RealStudy:
-    """A real arm's measurements in the form of the paper's.
+    """A real arm's measurements in the form of the paper's."""
 
-    Attributes:
-        measurements: sets "identification" and "held out"; one robot, named as the arm.
-        choice: of the identification configurations among the candidates, with its observability index.
-        base_position_m, base_rotation: (3,), (3, 3) the arm's base in the measurement frame, fitted.
-        tools_m: fitted tool point in the last frame by target, m.
-    """
-
-    measurements: Measurements
-    choice: ChosenPoses
-    base_position_m: Array
-    base_rotation: Array
-    tools_m: dict[str, Array]
+    measurements: Measurements  # sets "identification" and "held out"; one robot, named as the arm
+    choice: ChosenPoses  # of the identification configurations among the candidates, with its observability index
+    base_position_m: Array  # (3,) the arm's base in the measurement frame, fitted
+    base_rotation: Array  # (3, 3) the arm's base in the measurement frame, fitted
+    tools_m: dict[str, Array]  # fitted tool point in the last frame by target, m
 
 
 def real_measurements(arm: Arm, recordings: Recordings, seed: int, count: int = 85) -> RealStudy:

@@ -14,8 +14,7 @@ from armscope.errormodels.fitted import SwarmFit
 from armscope.paper.measurements import Measurements
 from armscope.paper.printed import AXES, UNCOMPENSATED
 
-SPATIAL = "3D"
-"""The fourth "axis": the length of the error vector."""
+SPATIAL = "3D"  # The fourth "axis": the length of the error vector
 
 NO_SEED = -1
 COLUMNS = ["robot", "model", "trajectory", "axis", "method", "seed", "points", "rss_mm", "rms_mm"]
@@ -25,7 +24,6 @@ def residual_table(measurements: Measurements, fits: Sequence[SwarmFit]) -> pd.D
     """One row per robot, model, trajectory, axis and fit.
 
     Args:
-        measurements: of the robots.
         fits: whose labels are robots' names (`Measurements.fit_problems`); robots without a fit keep their
             uncompensated rows.
 
@@ -78,7 +76,6 @@ def typical(residuals: pd.DataFrame, value: str = "rms_mm") -> pd.DataFrame:
 
     Args:
         residuals: see `residual_table`.
-        value: "rms_mm" or "rss_mm".
 
     Returns:
         The table of medians, mm.

@@ -10,8 +10,7 @@ import pandas as pd
 
 from armscope.core.config import Point
 from armscope.core.inputs import InputError
-from armscope.paper.study import Sizes, StudyPlan
-from armscope.paper.virtual import PlannedPaths
+from armscope.paper.virtual import PlannedPaths, Sizes, StudyPlan
 from armscope.robot import Arm
 
 Corners = tuple[Point, Point, Point, Point]
@@ -24,28 +23,16 @@ JOINTLY = "several at once"
 
 @dataclass(frozen=True, eq=False)
 class Varied:
-    """The other values of each assumption.
-
-    Attributes:
-        arms: geometries.
-        tolerances: factors on all sizes.
-        margins_rad: by which the poses' joint ranges are wider than the paths'.
-        motor_6_rad: ranges of theta6, +-.
-        corners_mm: of trajectory I.
-        rises_mm: of trajectories II and III.
-        repeats_mm: how well the arm repeats, 1-sigma.
-        together: how many scenarios of the joint design.
-        seed: of the design.
-    """
+    """The other values of each assumption."""
 
     arms: tuple[Arm, ...]
-    tolerances: tuple[float, ...]
-    margins_rad: tuple[float, ...]
-    motor_6_rad: tuple[float, ...]
+    tolerances: tuple[float, ...]  # factors on all sizes
+    margins_rad: tuple[float, ...]  # by which the poses' joint ranges are wider than the paths'
+    motor_6_rad: tuple[float, ...]  # ranges of theta6, +-
     corners_mm: tuple[Corners, ...]
-    rises_mm: tuple[float, ...]
-    repeats_mm: tuple[float, ...]
-    together: int
+    rises_mm: tuple[float, ...]  # of trajectories II and III
+    repeats_mm: tuple[float, ...]  # how well the arm repeats, 1-sigma
+    together: int  # how many scenarios of the joint design
     seed: int
 
     def levels(self) -> dict[str, list[tuple[str, Change]]]:
@@ -100,14 +87,8 @@ def _together(
 
 
 def check_reach(plans: Sequence[tuple[str, StudyPlan]]) -> pd.DataFrame:
-    """Follow the paths of all scenarios before anything else is done with them.
-
-    Returns:
-        Columns scenario, arm, points (all reached).
-
-    Raises:
-        InputError: names every scenario with a point that its arm can't reach, and why.
-    """
+    """Follow the paths of all scenarios before anything else is done with them. Raises InputError: names every
+    scenario with a point that its arm can't reach, and why."""
     rows, missed = [], []
     followed: dict[tuple[int, PlannedPaths], int | InputError] = {}  # most scenarios change neither arm nor paths
     for name, plan in plans:

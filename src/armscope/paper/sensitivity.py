@@ -15,12 +15,11 @@ from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims import AS_PRINTED, IMPROVED, Evidence, judge_claims
 from armscope.paper.enough_poses import enough_poses
 from armscope.paper.method import PRINTED_BASIS, PRINTED_LAYOUT, as_printed
-from armscope.paper.outlook import outlook
+from armscope.paper.outlook import outlook, sub_volumes
 from armscope.paper.printed import IDENTIFICATION
 from armscope.paper.residuals import SPATIAL
 from armscope.paper.scenarios import Scenario
-from armscope.paper.study import measured
-from armscope.paper.sub_volumes import sub_volumes
+from armscope.paper.virtual import measured
 from armscope.swarm.settings import SwarmSettings
 
 COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "robots", "share"]
@@ -29,21 +28,15 @@ COLUMNS = ["scenario", "factor", "level", "key", "method", "verdict", "true", "r
 
 @dataclass(frozen=True)
 class Fitting:
-    """How a scenario's robots are fitted.
-
-    Attributes:
-        specs: the models.
-        settings, basis, layout: of the improved method.
-        seeds: of the swarms, of either method.
-        everything: also random search and cross-validated extensions, which take most of the time.
-    """
+    """How a scenario's robots are fitted."""
 
     specs: tuple[ModelSpec, ...]
+    # settings, basis, layout: of the improved method
     settings: SwarmSettings
     basis: str
     layout: str
-    seeds: Sequence[int]
-    everything: bool = False
+    seeds: Sequence[int]  # of the swarms, of either method
+    everything: bool = False  # also random search and cross-validated extensions, which take most of the time
 
 
 def judge_scenario(scenario: Scenario, fitting: Fitting) -> pd.DataFrame:

@@ -16,12 +16,61 @@ from armscope.paper.measurements import Measurements, PoseSet, pose_arrays, pose
 from armscope.paper.printed import IDENTIFICATION, TEST_TRAJECTORIES
 from armscope.robot import Arm, chain, forward_kinematics
 from armscope.robot.inverse import follow_path
-from armscope.world.tolerances import GeometricErrors
-from armscope.world.tracker import Tracker
-from armscope.world.trajectories import archimedes_spiral, rectangle
+from armscope.world.of_the_paper import Tracker, archimedes_spiral, rectangle
+from armscope.world.tolerances import GeometricErrors, geometric_errors
 
-HELD = {4: 0.0, 5: 0.0}
-"""theta4 = theta5 = 0 throughout (below Eq. 14)."""
+
+@dataclass(frozen=True)
+class Sizes:
+    """One-sigma sizes of the geometric errors, m and rad."""
+
+    link_m: float
+    link_rad: float
+    base_m: float
+    base_rad: float
+
+    def times(self, factor: float) -> Sizes:
+        """All of them times a factor."""
+        return Sizes(*(factor * size for size in (self.link_m, self.link_rad, self.base_m, self.base_rad)))
+
+
+@dataclass(frozen=True, eq=False)
+class StudyPlan:
+    """What a study assumes."""
+
+    arm: Arm
+    sizes: Sizes  # of its geometric errors
+    # paths, poses: where it is measured
+    paths: PlannedPaths
+    poses: PlannedPoses
+    tracker: Tracker
+    repeat_m: float  # how well the arm itself repeats, 1-sigma per axis and point, m
+    ensemble: int  # how many robots are drawn besides the anchored one
+    seed: int  # of poses, noise and robots
+
+    @property
+    def errors(self) -> GeometricErrors:
+        """The possible geometric errors and their sizes."""
+        return geometric_errors(
+            self.arm, self.sizes.link_m, self.sizes.link_rad, self.sizes.base_m, self.sizes.base_rad
+        )
+
+    def follow(self) -> pd.DataFrame:
+        """Pose table of the test paths. Raises InputError: a point that can't be reached; it names arm, path, point
+        and reason."""
+        return trajectory_poses(self.arm, self.paths.by_name())
+
+
+def measured(plan: StudyPlan) -> tuple[VirtualStudy, ChosenPoses]:
+    """The robots of a plan, measured at its poses, and what the choice of the identification poses is worth. Raises
+    InputError: a path that can't be reached."""
+    errors, trajectories = plan.errors, plan.follow()
+    identification, choice = identification_poses(errors, trajectories, plan.poses, plan.seed)
+    at = pd.concat([identification, trajectories], ignore_index=True)
+    return measure_virtual(errors, at, plan.tracker, plan.ensemble, plan.seed, plan.repeat_m), choice
+
+
+HELD = {4: 0.0, 5: 0.0}  # theta4 = theta5 = 0 throughout (below Eq. 14)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,25 +83,15 @@ class VirtualStudy:
 
 @dataclass(frozen=True)
 class PlannedPaths:
-    """The three test trajectories (sections 7.1, 7.2), mm in the base frame.
+    """The three test trajectories (sections 7.1, 7.2), mm in the base frame."""
 
-    Attributes:
-        corners_mm: of trajectory I, the first at (1100, 800, 600).
-        points_per_side: 50.
-        spiral_starts_mm: of II and III.
-        enlargement_mm: W of Eqs. (21)-(22), 20.
-        turns_pi: phi runs from 0 to this many times pi, 5.
-        spiral_points: 200.
-        rise_mm: change of the third coordinate (z of II, x of III) along the whole spiral.
-    """
-
-    corners_mm: tuple[Point, Point, Point, Point]
-    points_per_side: int
-    spiral_starts_mm: tuple[Point, Point]
-    enlargement_mm: float
-    turns_pi: float
-    spiral_points: int
-    rise_mm: float
+    corners_mm: tuple[Point, Point, Point, Point]  # of trajectory I, the first at (1100, 800, 600)
+    points_per_side: int  # 50
+    spiral_starts_mm: tuple[Point, Point]  # of II and III
+    enlargement_mm: float  # W of Eqs. (21)-(22), 20
+    turns_pi: float  # phi runs from 0 to this many times pi, 5
+    spiral_points: int  # 200
+    rise_mm: float  # change of the third coordinate (z of II, x of III) along the whole spiral
 
     def by_name(self) -> dict[str, Array]:
         """Name -> (N, 3) tool points in the base frame, mm."""
@@ -66,27 +105,17 @@ class PlannedPaths:
 
 @dataclass(frozen=True)
 class PlannedPoses:
-    """The identification poses.
+    """The identification poses."""
 
-    Attributes:
-        count: 85.
-        candidates: how many, spread evenly over the ranges, to choose from.
-        margin_rad: by which the paths' joint ranges are widened to both sides.
-        motor_6_rad: theta6 ranges over +- this instead (the paths hardly move it).
-    """
-
-    count: int
-    candidates: int
-    margin_rad: float
-    motor_6_rad: float
+    count: int  # 85
+    candidates: int  # how many, spread evenly over the ranges, to choose from
+    margin_rad: float  # by which the paths' joint ranges are widened to both sides
+    motor_6_rad: float  # theta6 ranges over +- this instead (the paths hardly move it)
 
 
 def trajectory_poses(arm: Arm, paths_mm: Mapping[str, Array]) -> pd.DataFrame:
     """The pose table (see `pose_table`) of paths followed with theta4 = theta5 = 0 and least motion, from angles 0.
-
-    Raises:
-        InputError: a point that can't be reached; it names path, point and reason.
-    """
+    Raises InputError: a point that can't be reached; it names path, point and reason."""
     held = {motor: angle for motor, angle in HELD.items() if motor <= arm.n_motors}
     tables = []
     for name, path in paths_mm.items():

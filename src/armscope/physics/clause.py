@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from armscope.core.location import Location
-from armscope.core.numerals import size_of
+from armscope.core.words import size_of
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.physics.clause import Told
 from armscope.physics.effect import AXES, Cure, Direction, Driver, Effect, Placed, Product, Term, term
 from armscope.physics.form_constants import FORM

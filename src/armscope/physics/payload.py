@@ -9,8 +9,8 @@ from functools import partial
 
 import numpy as np
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
+from armscope.core.words import rounded
 from armscope.physics.clause import Told
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import ONE, Cure, Direction, Driver, Effect, Part, Placed, Product, Term

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.physics.clause import Told
 from armscope.physics.drift import when
 from armscope.physics.effect import Cure, Driver, Effect, Part, Placed, Product, Term

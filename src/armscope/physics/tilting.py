@@ -7,8 +7,8 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
+from armscope.core.words import rounded
 from armscope.physics.clause import CLEAR, Told, clear_ones
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.effect import Cure, Direction, Driver, Effect, Placed, Product, Term, term

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.physics.clause import Told, below_zero, swings, waves_column
 from armscope.physics.constants import PLAUSIBLE
 from armscope.physics.cure import command

@@ -3,7 +3,7 @@
 A collision shape counts as the capsule along the longest side of its bounding box. Links that have none, and what lies
 between the last shape, the tip and the tool point, are capsules of one assumed radius around the centre line. Where a
 URDF has no shapes (or meshes that are not there), and for D-H arms, all of the centre line is
-(`armscope.robot.centre_line`).
+(`armscope.robot.kinematics`).
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ import pinocchio as pin
 from armscope.core.types import Array
 from armscope.poses.constants import BODY
 from armscope.robot import Arm, Chain, chain
-from armscope.robot.centre_line import centre_lines
 from armscope.robot.description import RobotDescription
+from armscope.robot.kinematics import centre_lines
 from armscope.robot.urdf import cut, read_urdf
 
 

@@ -18,17 +18,11 @@ from armscope.robot import Arm
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Possible poses.
+    """Possible poses."""
 
-    Attributes:
-        table: N rows: motor angles, side of approach, payload.
-        drawn: how many poses were drawn.
-        refused: how many of those for each of `REASONS`.
-    """
-
-    table: Recordings
-    drawn: int
-    refused: Mapping[str, int]
+    table: Recordings  # N rows: motor angles, side of approach, payload
+    drawn: int  # how many poses were drawn
+    refused: Mapping[str, int]  # how many of those for each of `REASONS`
 
     def __len__(self) -> int:
         return len(self.table)
@@ -76,14 +70,8 @@ def _too_few(arm: Arm, told: str, most: str, last: Array, around: Surroundings) 
     """That hardly any pose is possible, at the option without which many of them would be.
 
     Args:
-        arm: the arm.
-        told: how many are.
         most: which of `REASONS` refused most; a pose that hits itself may stand below the floor, too.
         last: (N, m) some of those drawn, rad.
-        around: what refuses poses.
-
-    Returns:
-        The error.
     """
     best, option, value, why = 0.0, "", np.empty(0), most
     if around.floor is not None:

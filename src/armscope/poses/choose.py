@@ -21,25 +21,15 @@ from armscope.robot import Arm
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Poses chosen from candidates.
+    """Poses chosen from candidates."""
 
-    Attributes:
-        effects: what is to be shown, as asked for.
-        index: what was made large, "O1" to "O5".
-        rows: (n,) of the candidates, in the order to measure.
-        candidates: what they were chosen from.
-        shown: what they show.
-        jacobian: (N, 3, p) of all candidates.
-        around: floor, tracker, radius of the links.
-    """
-
-    effects: tuple[str, ...]
-    index: str
-    rows: Indices
-    candidates: Candidates
+    effects: tuple[str, ...]  # what is to be shown, as asked for
+    index: str  # what was made large, "O1" to "O5"
+    rows: Indices  # (n,) of the candidates, in the order to measure
+    candidates: Candidates  # what they were chosen from
     targets: TargetParameters
-    jacobian: Array
-    around: Surroundings
+    jacobian: Array  # (N, 3, p) of all candidates
+    around: Surroundings  # floor, tracker, radius of the links
 
     @property
     def table(self) -> Recordings:

@@ -21,17 +21,11 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True)
 class RivalOptions:
-    """What a choice is compared with, by the names of the command line.
+    """What a choice is compared with, by the names of the command line."""
 
-    Attributes:
-        seeds: simulated arms in the comparison with random poses and a grid; 0: none is made.
-        noise_mm: 1-sigma per axis; None: robot.yaml's, else `CHOOSING.noise_mm`.
-        all_criteria: whether the choices by the other four criteria are compared, too.
-    """
-
-    seeds: int = 0
-    noise_mm: float | None = None
-    all_criteria: bool = False
+    seeds: int = 0  # simulated arms in the comparison with random poses and a grid; 0: none is made
+    noise_mm: float | None = None  # 1-sigma per axis; None: robot.yaml's, else `CHOOSING.noise_mm`
+    all_criteria: bool = False  # whether the choices by the other four criteria are compared, too
 
     def noise(self, sigma: float | None) -> tuple[float, str]:
         """Noise of an arm's points, m, and who says so; `sigma` is robot.yaml's, m."""

@@ -25,18 +25,12 @@ from armscope.robot import Arm, Chain, chain
 
 @dataclass(frozen=True, eq=False)
 class Surroundings:
-    """What limits the poses besides the joints.
+    """What limits the poses besides the joints."""
 
-    Attributes:
-        radius: of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`).
-        floor: height of a plane in the base frame below which nothing may be, m; None: there is none.
-        tracker: (3,) where the tracker stands in the base frame, m; None: it sees everything.
-        up: (3,) of length one in the base frame: the way in which heights count.
-    """
-
-    radius: float | None = None
-    floor: float | None = None
-    tracker: Array | None = None
+    radius: float | None = None  # of the links, m; None: the URDF's collision shapes, or assumed (`BODY.radius`)
+    floor: float | None = None  # height of a plane in the base frame below which nothing may be, m; None: there is none
+    tracker: Array | None = None  # (3,) where the tracker stands in the base frame, m; None: it sees everything
+    # (3,) of length one in the base frame: the way in which heights count
     up: Array = field(default_factory=lambda: UP)
 
     def radius_of(self, arm: Arm) -> float:
@@ -197,3 +191,33 @@ def segment_distance(start: Array, end: Array, other_start: Array, other_end: Ar
     gap = between + s[:, None] * along - t[:, None] * across
     distance: Array = np.linalg.norm(gap, axis=1)
     return distance
+
+
+def body_in_words(arm: Arm, around: Surroundings) -> str:
+    """What the arm's body is taken to be."""
+    radius = f"{around.radius_of(arm) * 1e3:.0f} mm radius"
+    shapes = around.shapes_of(arm)
+    if shapes:
+        return (
+            f"{len(shapes)} collision shapes of the URDF as capsules; links without one, and what lies between the "
+            f"last shape and the tool point, as capsules of {radius}"
+        )
+    return f"links as capsules of {radius} around the lines between their joints"
+
+
+def body_notes(arm: Arm, around: Surroundings) -> list[str]:
+    """What a command says beside poses or a motion: what the body is taken for, and what was not checked."""
+    notes = [f"the arm's body: {body_in_words(arm, around)}; links that share a joint are not checked"]
+    notes += [
+        f"thicker than half the gap that there ever is between them, and checked less: {each}"
+        for each in thinned(arm, around)
+    ]
+    return notes
+
+
+def surroundings_notes(arm: Arm, around: Surroundings) -> list[str]:
+    """The same, and what was not looked at for want of an option."""
+    notes = body_notes(arm, around)
+    notes += ["no --tracker: every pose counts as visible"] if around.tracker is None else []
+    notes += ["no --floor-mm: the arm may reach below its base"] if around.floor is None else []
+    return notes

@@ -50,11 +50,7 @@ class PoseOptions:
         return tuple(name.strip() for name in given if name.strip())
 
     def around(self) -> Surroundings:
-        """Floor, tracker and body, SI units.
-
-        Raises:
-            InputError: the tracker is nowhere.
-        """
+        """Floor, tracker and body, SI units. Raises InputError: the tracker is nowhere."""
         radius, floor = (None if each is None else each * 1e-3 for each in (self.radius_mm, self.floor_mm))
         return Surroundings(radius, floor, None if self.tracker is None else _place(self.tracker))
 
@@ -74,11 +70,7 @@ class PoseOptions:
 
 
 def _place(tracker: str | Sequence[float]) -> Array:
-    """(3,) m.
-
-    Raises:
-        InputError: it is not three numbers.
-    """
+    """(3,) m. Raises InputError: it is not three numbers."""
     parts = tracker.split(",") if isinstance(tracker, str) else tracker
     try:
         place = np.array([float(part) for part in parts]) * 1e-3

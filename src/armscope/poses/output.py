@@ -12,11 +12,10 @@ from armscope.core.files import write_json, write_table
 from armscope.core.streams import is_stream
 from armscope.design.indices import SOURCES
 from armscope.physics.effect import Driver
-from armscope.poses.body_words import body_in_words
 from armscope.poses.choose import Choice
 from armscope.poses.compare import RIVALS, predicted_errors, share_won, summary
 from armscope.poses.constants import BODY
-from armscope.poses.obstacles import thinned
+from armscope.poses.obstacles import body_in_words, thinned
 from armscope.recordings.columns import angle_columns
 
 UNITS = (

@@ -24,27 +24,18 @@ from armscope.poses.constants import CHOOSING
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-GEOMETRY = "geometry"
-"""The default set of effects: constant errors of all D-H rows and all motors' zeros."""
+GEOMETRY = "geometry"  # The default set of effects: constant errors of all D-H rows and all motors' zeros
 
 
 @dataclass(frozen=True, eq=False)
 class TargetParameters:
-    """Parameters that poses can tell apart.
-
-    Attributes:
-        arm: the arm.
-        placed: frames first, then the effects.
-        terms: (effect number in ``placed``, term) of each parameter kept, p of them.
-        sizes: (p,) SI size of each that moves the tool by `CHOOSING.size_m`.
-        hidden: names of parameters that the others imitate, or that move nothing.
-    """
+    """Parameters that poses can tell apart."""
 
     arm: Arm
-    placed: tuple[Placed, ...]
-    terms: tuple[tuple[int, Term], ...]
-    sizes: Array
-    hidden: tuple[str, ...]
+    placed: tuple[Placed, ...]  # frames first, then the effects
+    terms: tuple[tuple[int, Term], ...]  # (effect number in ``placed``, term) of each parameter kept, p of them
+    sizes: Array  # (p,) SI size of each that moves the tool by `CHOOSING.size_m`
+    hidden: tuple[str, ...]  # names of parameters that the others imitate, or that move nothing
 
     @property
     def names(self) -> tuple[str, ...]:

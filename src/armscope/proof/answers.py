@@ -17,8 +17,7 @@ from armscope.verdict.filenames import VERDICT
 from armscope.verdict.files import read_verdict
 
 PREDICTED, FAILURE = "test_predicted.csv", "failed.txt"
-Numbers = dict[str, tuple[float, float, str]]
-"""Value, standard error and unit by name."""
+Numbers = dict[str, tuple[float, float, str]]  # Value, standard error and unit by name
 
 
 def numbers_of(parameters: Iterable[Parameter]) -> Numbers:

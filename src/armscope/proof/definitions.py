@@ -75,8 +75,7 @@ from armscope.core.location import Location
 
 Name = tuple[str, str]
 
-CLEAR_STRENGTH = 2.95
-"""What counts as three times the noise: strengths are reached to within a per cent."""
+CLEAR_STRENGTH = 2.95  # What counts as three times the noise: strengths are reached to within a per cent
 HELD_OUT_TOLERANCE = 1.05
 NEAR_ORACLE = 1.10
 FALSE_ALARMS_OF_ORACLE = 0.01
@@ -92,8 +91,7 @@ Judgement, set when causes that the oracle has 9.8, 11.7, 27, 135 and 317 nats f
 beside those of all causes, never in their place."""
 MOST_MAJOR = 4
 ABSURD_MM, ABSURD_RAD, ABSURD_TIMES = 20.0, 0.05, 50.0
-RELIABLE = 0.9
-"""Share of cases in which an effect of threshold size is found."""
+RELIABLE = 0.9  # Share of cases in which an effect of threshold size is found
 RIGHT_INPUTS = ("single", "multiple", "bad_shots", "faint", "inseparable", "real")
 """Categories in which what the diagnosis is told about the arm is right (as far as it is told)."""
 FEWEST_CASES = 10
@@ -107,20 +105,12 @@ def place(location: str) -> str:
 
 @dataclass(frozen=True)
 class Aim:
-    """One of the aims.
+    """One of the aims."""
 
-    Attributes:
-        text: as the aims say it.
-        table: which table of cases it is counted in: worlds, effects, names or intervals.
-        column: the column of that table that says right or wrong.
-        bounds: the least and the most that the rate may be.
-        among: which rows count.
-    """
-
-    text: str
-    table: str
-    column: str
-    bounds: tuple[float, float]
+    text: str  # as the aims say it
+    table: str  # which table of cases it is counted in: worlds, effects, names or intervals
+    column: str  # the column of that table that says right or wrong
+    bounds: tuple[float, float]  # the least and the most that the rate may be
     among: Callable[[pd.DataFrame], pd.Series]
 
 
@@ -189,8 +179,7 @@ AIMS: tuple[Aim, ...] = (
 )  # fmt: skip
 """Counted aims. Held-out RMS: met in the median world; the threshold of detection is fitted, see `power`."""
 
-THRESHOLD_AIM = (0.0, 1.25)
-"""The 90 % point of the diagnosis in multiples of the oracle's."""
+THRESHOLD_AIM = (0.0, 1.25)  # The 90 % point of the diagnosis in multiples of the oracle's
 
 
 def judged(cases: int, estimate: float, low: float, high: float, aim: tuple[float, float]) -> str:

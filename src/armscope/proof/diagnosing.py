@@ -24,8 +24,7 @@ from armscope.recordings import Recordings, read_recordings
 from armscope.recordings.columns import AXES_MM
 from armscope.robot import load_arm
 
-MOMENTS = 16
-"""Of the session, at which poses are predicted whose time nobody knows."""
+MOMENTS = 16  # Of the session, at which poses are predicted whose time nobody knows
 
 
 def diagnose_worlds(worlds: Iterable[Path], output: Path, settings: Settings) -> None:

@@ -20,7 +20,7 @@ from armscope.proof.definitions import (
     THRESHOLD_AIM,
 )
 from armscope.proof.oracle import Threshold, threshold
-from armscope.proof.rough_rates import rough_table
+from armscope.proof.rough import rough_table
 from armscope.proof.scoring import Cases
 from armscope.verdict.effects import UNKNOWN
 
@@ -234,12 +234,8 @@ def wrong_worlds(cases: Cases) -> pd.DataFrame:
 
 
 def tables(cases: Cases, seed: int = 0) -> dict[str, pd.DataFrame]:
-    """All tables of a proof by name: the cases themselves and every rate.
-
-    Args:
-        cases: as `armscope.proof.scoring.score` returns them.
-        seed: of the bootstrap intervals of thresholds.
-    """
+    """All tables of a proof by name: the cases themselves and every rate. ``cases``: as
+    `armscope.proof.scoring.score` returns them."""
     rng = np.random.default_rng(seed)
     return cases.tables() | {
         "aims": aims_table(cases, rng),

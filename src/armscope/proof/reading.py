@@ -18,16 +18,11 @@ from armscope.proof.answers import read_answer
 from armscope.proof.scoring import World
 from armscope.proof.truth import unseal
 
-ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}
-"""All that a diagnosing job may see of a world."""
+ALLOWED = {"robot.yaml", "recordings.csv", "test_poses.csv"}  # All that a diagnosing job may see of a world
 
 
 def read_worlds(folder: Path) -> Iterator[World]:
-    """Every world of a proof with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of a proof with its answer. Raises InputError: a diagnosing job could see more than it may."""
     for batch, archive in sealed_batches(folder):
         verdicts = folder / "verdicts" / batch
         for world, truth in unseal(archive).items():
@@ -38,11 +33,8 @@ def read_worlds(folder: Path) -> Iterator[World]:
 
 
 def sealed_batches(folder: Path) -> Iterator[tuple[str, Path]]:
-    """Name and archive of every batch of worlds, once it is sure that its diagnosing job saw what it may and no more.
-
-    Raises:
-        InputError: one could see more.
-    """
+    """Name and archive of every batch of worlds, once it is sure that its diagnosing job saw what it may and no
+    more. Raises InputError: one could see more."""
     for archive in sorted((folder / "sealed").glob("*.tar.gz")):
         batch = archive.name.removesuffix(".tar.gz")
         check_seal(folder / "seen" / f"{batch}.txt")
@@ -50,11 +42,8 @@ def sealed_batches(folder: Path) -> Iterator[tuple[str, Path]]:
 
 
 def check_seal(seen: Path, allowed: Collection[str] = ALLOWED) -> None:
-    """Make sure that a diagnosing job saw nothing but what may be seen.
-
-    Raises:
-        InputError: the list holds another file.
-    """
+    """Make sure that a diagnosing job saw nothing but what may be seen. Raises InputError: the list holds another
+    file."""
     files = seen.read_text(encoding="utf-8").splitlines()
     if not files:
         raise InputError(seen, "", "nothing", "the list says what the diagnosing job saw, what was measured at least")

@@ -47,18 +47,12 @@ REAL = "real"
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A world unsealed beside the answer it got.
-
-    Attributes:
-        truth, answer: the two.
-        times: the recorded `time_s`, where there are any.
-        runs: recorded runs, each with a base frame of its own.
-    """
+    """A world unsealed beside the answer it got."""
 
     truth: Truth
     answer: Answer
-    times: pd.Series | None = None
-    runs: int = 1
+    times: pd.Series | None = None  # the recorded `time_s`, where there are any
+    runs: int = 1  # recorded runs, each with a base frame of its own
 
     @property
     def price_of_fitting(self) -> float:

@@ -19,34 +19,24 @@ from armscope.proof.definitions import TELLABLE_NATS, Name
 
 @dataclass(frozen=True)
 class Concealed:
-    """One concealed effect.
+    """One concealed effect."""
 
-    Attributes:
-        effect, location: its name; `unknown` if no library has it.
-        driver: what it follows.
-        minor: part of a real arm's background.
-        strength: RMS at the tool in multiples of the noise.
-        parameters: (value, unit) by name, file units.
-        comparable: whether the fitted numbers can be compared with them.
-        noncentrality, columns, frame_numbers: of the oracle's test; NaN and 0 for the background.
-        alternatives: names that are as good in these poses.
-        shape: kind of an effect outside the library.
-        oracle_nats: of a rough arm's cause, how surely the oracle can say that it is there; NaN of others, and where a
-            column that it follows is not in the table.
-    """
-
+    # effect, location: its name; `unknown` if no library has it
     effect: str
     location: str
     driver: str
-    minor: bool
-    strength: float
-    parameters: dict[str, tuple[float, str]]
-    comparable: bool
+    minor: bool  # part of a real arm's background
+    strength: float  # RMS at the tool in multiples of the noise
+    parameters: dict[str, tuple[float, str]]  # (value, unit) by name, file units
+    comparable: bool  # whether the fitted numbers can be compared with them
+    # noncentrality, columns, frame_numbers: of the oracle's test; NaN and 0 for the background
     noncentrality: float
     columns: int
     frame_numbers: int
-    alternatives: tuple[Name, ...]
-    shape: str = ""
+    alternatives: tuple[Name, ...]  # names that are as good in these poses
+    shape: str = ""  # kind of an effect outside the library
+    # of a rough arm's cause, how surely the oracle can say that it is there; NaN of others, and where a column that it
+    # follows is not in the table
     oracle_nats: float = float("nan")
 
     @property
@@ -108,20 +98,12 @@ def seal(folder: Path, archive: Path) -> None:
 
 
 def unseal(archive: Path) -> dict[str, Truth]:
-    """The truths of an archive, by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """The truths of an archive, by world. Raises InputError: it holds something else."""
     return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
 
 
 def unsealed(archive: Path) -> dict[str, tuple[dict[str, Any], pd.DataFrame]]:
-    """What an archive holds: truth.yaml and test.csv by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """What an archive holds: truth.yaml and test.csv by world. Raises InputError: it holds something else."""
     found: dict[str, dict[str, bytes]] = {}
     with tarfile.open(archive) as tar:
         for entry in tar.getmembers():

@@ -40,10 +40,7 @@ def agreement_in_words(direction: Array, n_motors: int) -> str:
 
 
 def compare_runs(
-    arm: Arm,
-    recordings: Recordings,
-    reference: ReferenceCompliances,
-    tell: Callable[[str], None] = unheard,
+    arm: Arm, recordings: Recordings, reference: ReferenceCompliances, tell: Callable[[str], None] = unheard
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """What every run says of the joints asked for, and which runs agree: from points alone, and from orientations, too.
 

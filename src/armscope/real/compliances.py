@@ -33,7 +33,7 @@ from armscope.fitting.model_fit import ModelFit
 from armscope.fitting.parameter_layout import ParameterLayout, parameter_layout
 from armscope.fitting.registration import fit_frames
 from armscope.inference.normal_equations import NormalEquations, total
-from armscope.measurement.registry import supported
+from armscope.measurement.channel import supported
 from armscope.measurement.row_weights import RowNoise
 from armscope.physics import elastic, geometric, tilting
 from armscope.physics.effect import Part, Placed
@@ -52,26 +52,17 @@ from armscope.robot.gravity import gravity_torques, mass_moment_regressor
 
 @dataclass(frozen=True, eq=False)
 class Give:
-    """What a run alone says of how the arm gives way.
-
-    Attributes:
-        run: its name.
-        rows: how many.
-        mean: (m + n,) compliances of all motors' drives, then of all joints' bearings, rad/(N m); what carries no load
-            keeps its prior.
-        covariance: (m + n, m + n).
-        posterior: the same as if the model were true; what two runs share through the prior follows from it.
-        noise_mm: what the model leaves, per axis.
-        masses: by how much the stated masses were scaled.
-    """
+    """What a run alone says of how the arm gives way."""
 
     run: str
     rows: int
+    # (m + n,) compliances of all motors' drives, then of all joints' bearings, rad/(N m); what carries no load keeps
+    # its prior
     mean: Array
-    covariance: Array
-    posterior: Array
-    noise_mm: float
-    masses: float
+    covariance: Array  # (m + n, m + n)
+    posterior: Array  # the same as if the model were true; what two runs share through the prior follows from it
+    noise_mm: float  # what the model leaves, per axis
+    masses: float  # by how much the stated masses were scaled
 
     @property
     def stderr(self) -> Array:
@@ -194,24 +185,15 @@ def _jackknifed(blocks: Sequence[NormalEquations], noise: float, precision: Arra
 
 @dataclass(frozen=True, eq=False)
 class Agreement:
-    """Two runs' compliances, compared where both tell them.
-
-    Attributes:
-        one, other: the runs.
-        directions: (k, m + n) combinations of the compliances that both determine, unit vectors, the surest first.
-        difference: (k,) of these combinations, one minus other, rad/(N m).
-        stderr: (k,) of the differences.
-        statistic: Hotelling's T^2 of the difference.
-        probability: of such a difference or a larger one, if the compliances are the same.
-    """
+    """Two runs' compliances, compared where both tell them."""
 
     one: str
     other: str
-    directions: Array
-    difference: Array
-    stderr: Array
-    statistic: float
-    probability: float
+    directions: Array  # (k, m + n) combinations of the compliances that both determine, unit vectors, the surest first
+    difference: Array  # (k,) of these combinations, one minus other, rad/(N m)
+    stderr: Array  # (k,) of the differences
+    statistic: float  # Hotelling's T^2 of the difference
+    probability: float  # of such a difference or a larger one, if the compliances are the same
 
 
 def compare_compliances(one: Give, other: Give) -> Agreement:

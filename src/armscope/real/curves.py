@@ -22,18 +22,12 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True, eq=False)
 class Shared:
-    """One joint's curve as two runs tell it, over the angles that both cover, without its slow part.
+    """One joint's curve as two runs tell it, over the angles that both cover, without its slow part."""
 
-    Attributes:
-        joint: "joint 3".
-        runs: the two runs.
-        at: (K,) angle of the joint, rad, evenly spaced.
-        one, other: (K,) turn of the joint, rad; NaN where one of the runs hardly knows it.
-    """
-
-    joint: str
+    joint: str  # "joint 3"
     runs: tuple[str, str]
-    at: Array
+    at: Array  # (K,) angle of the joint, rad, evenly spaced
+    # one, other: (K,) turn of the joint, rad; NaN where one of the runs hardly knows it
     one: Array
     other: Array
 

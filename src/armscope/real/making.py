@@ -130,7 +130,7 @@ def make_withheld(by_name: Mapping[str, PreparedRecordings], places: Places) -> 
     """
     with sealing(places.visible, places.sealed) as folder:
         for name, prepared in by_name.items():
-            turns = _measured_turns(prepared.table)
+            turns = [name for name in QUATERNION if name in prepared.table]
             cases = itertools.product((False, True) if turns else (False,), WITHHELD.items())
             for number, (oriented, (what, prefixes)) in enumerate(cases):
                 gone = [[c for c in map(str, prepared.table) if c.startswith(prefix)] for prefix in prefixes]
@@ -141,7 +141,3 @@ def make_withheld(by_name: Mapping[str, PreparedRecordings], places: Places) -> 
                 _write_world(
                     folder / f"{name}-{number}", places, prepared, prepared.table.drop(columns=left_out), truth
                 )
-
-
-def _measured_turns(table: pd.DataFrame) -> list[str]:
-    return [name for name in QUATERNION if name in table]

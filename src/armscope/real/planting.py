@@ -28,27 +28,16 @@ from armscope.world.strength import LARGEST_RAW_M, SEEN_SHARE, Sized
 
 @dataclass(frozen=True, eq=False)
 class Planted:
-    """An effect in real recordings.
-
-    Attributes:
-        effect: with its numbers.
-        size: RMS at the tool in multiples of what the arm leaves unexplained.
-        rms: per axis, after the frames, over the training rows, m.
-        moved: (N, 3) displacement of every row, measurement frame, m.
-        turned: (N, 3, 3) turn of the tool in every row, measurement frame.
-        left: (N, 3) what frames fitted to the training rows leave of it, m.
-        visibility: noncentrality, and what else could stand in its place.
-        beyond_geometry: the part of the noncentrality that links and zeros within their tolerances can't make.
-    """
+    """An effect in real recordings."""
 
     effect: Concealed
-    size: float
-    rms: float
-    moved: Array
-    turned: Array
-    left: Array
-    visibility: Visibility
-    beyond_geometry: float
+    size: float  # RMS at the tool in multiples of what the arm leaves unexplained
+    rms: float  # per axis, after the frames, over the training rows, m
+    moved: Array  # (N, 3) displacement of every row, measurement frame, m
+    turned: Array  # (N, 3, 3) turn of the tool in every row, measurement frame
+    left: Array  # (N, 3) what frames fitted to the training rows leave of it, m
+    visibility: Visibility  # noncentrality, and what else could stand in its place
+    beyond_geometry: float  # the part of the noncentrality that links and zeros within their tolerances can't make
 
 
 @dataclass(frozen=True)
@@ -96,11 +85,8 @@ def plant(
 def _best_placed(
     simulated: SimulatedEffects, judge: Judge, effects: Sequence[Concealed], sizes: Sequence[float], level: float
 ) -> Concealed:
-    """The first that has the fewest alternatives at the largest size that any place allows.
-
-    Raises:
-        CannotPlantError: none has a place at any size.
-    """
+    """The first that has the fewest alternatives at the largest size that any place allows. Raises CannotPlantError:
+    none has a place at any size."""
     reasons: list[str] = []
     for size, largest_factor in itertools.product(sorted(sizes, reverse=True), (LARGEST_FACTOR, np.inf)):
         found: list[Planted] = []
@@ -117,11 +103,7 @@ def _best_placed(
 
 
 def _places(simulated: SimulatedEffects, kind: Kind) -> list[str]:
-    """Where the recordings could show it.
-
-    Raises:
-        CannotPlantError: nowhere.
-    """
+    """Where the recordings could show it. Raises CannotPlantError: nowhere."""
     prepared = simulated.prepared
     torque = prepared.recordings.torque
     if kind.driver == LOAD and torque is None and not prepared.arm.has_masses:
@@ -150,11 +132,8 @@ def _sized(
     level: float,
     largest_factor: float = np.inf,
 ) -> Planted:
-    """The effect scaled to its size.
-
-    Raises:
-        CannotPlantError: frames or links take nearly all of it, or it would be absurd.
-    """
+    """The effect scaled to its size. Raises CannotPlantError: frames or links take nearly all of it, or it would be
+    absurd."""
     train, total = simulated.prepared.train, 1.0
     for _ in range(CONCEALING.rounds):
         moved = simulated.moved(effect)

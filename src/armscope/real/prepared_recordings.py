@@ -16,7 +16,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from armscope.calibration.calibrate import calibrate
-from armscope.calibration.splits import random_split
+from armscope.calibration.held_out import random_split
 from armscope.core.grouping import named_configuration
 from armscope.core.inputs import InputError
 from armscope.core.types import Array, Indices
@@ -29,29 +29,19 @@ KEPT = r"id|run|target|q\d+_rad|[xyz]_mm|q[wxyz]|tau\d+_nm|payload_kg|sigma_[xyz
 
 @dataclass(frozen=True, eq=False)
 class PreparedRecordings:
-    """Rows of a real arm with everything that may be seen of them.
-
-    Attributes:
-        arm: the nominal arm.
-        table: N rows as recordings.csv has them.
-        recordings: the same, read.
-        train, test: numbers of rows for the diagnosis, and of rows that test.
-        configuration: (N,) number of each row's configuration in the order of recording.
-        targets: their names; target: (N,) number of each row's.
-        tools: (K, 3) fitted tool points in the last frame, m.
-        rotations: (N, 3, 3) fitted, measurement frame from arm base.
-    """
+    """Rows of a real arm with everything that may be seen of them."""
 
     arm: Arm
-    table: pd.DataFrame
-    recordings: Recordings
+    table: pd.DataFrame  # N rows as recordings.csv has them
+    recordings: Recordings  # the same, read
+    # train, test: numbers of rows for the diagnosis, and of rows that test
     train: Indices
     test: Indices
-    configuration: Indices
-    targets: tuple[str, ...]
+    configuration: Indices  # (N,) number of each row's configuration in the order of recording
+    targets: tuple[str, ...]  # their names; target: (N,) number of each row's
     target: Indices
-    tools: Array
-    rotations: Array
+    tools: Array  # (K, 3) fitted tool points in the last frame, m
+    rotations: Array  # (N, 3, 3) fitted, measurement frame from arm base
 
 
 def of_run(table: pd.DataFrame, run: str | None, first_id: int | None) -> pd.DataFrame:

@@ -20,24 +20,17 @@ class Best(Strict):
 
 
 class ReferenceRun(Strict):
-    """One run in the protocol: which rows, how many random splits, and the figures reached on it.
+    """One run in the protocol: which rows, how many random splits, and the figures reached on it."""
 
-    Attributes:
-        name: how tables call it.
-        run, first_id: which rows.
-        splits: random splits (seeds 0, 1, ...) into 70 % to train on and 30 % to test on, by configuration.
-        most_rows: of the training rows for the plain calibrations, where the reference used no more.
-        figures_mm: test RMS of the 3D distance by level, (mean, standard deviation) over the splits.
-        best: further fits; None where those by level are all there is.
-    """
-
-    name: str
+    name: str  # how tables call it
     run: str
     first_id: int | None = None
+    # random splits (seeds 0, 1, ...) into 70 % to train on and 30 % to test on, by configuration
     splits: Count = PROTOCOL.splits
-    most_rows: Count | None = None
+    most_rows: Count | None = None  # of the training rows for the plain calibrations, where the reference used no more
+    # test RMS of the 3D distance by level, (mean, standard deviation) over the splits
     figures_mm: dict[Literal["nominal", "offsets", "geometric", "compliance"], tuple[Positive, Positive]]
-    best: Best | None = None
+    best: Best | None = None  # further fits; None where those by level are all there is
 
     def figure(self, model: str) -> tuple[float, float] | None:
         """What others reached by a model, mm: mean and standard deviation; None where there is none."""
@@ -51,17 +44,13 @@ class ReferenceRun(Strict):
 
 
 class ReferenceTransfer(Strict):
-    """A model learned on all rows of one run and applied to another, where only frames are fitted again.
-
-    Attributes:
-        learned, applied: runs.
-        refitted: which frames are fitted again on the other run; the rest is carried over.
-        figures_mm: RMS of the 3D distance there by model; "compliances": these alone carried over.
-    """
+    """A model learned on all rows of one run and applied to another, where only frames are fitted again."""
 
     learned: str
     applied: str
+    # which frames are fitted again on the other run; the rest is carried over
     refitted: tuple[Literal["base", "tool"], ...]
+    # RMS of the 3D distance there by model; "compliances": these alone carried over
     figures_mm: dict[str, Positive] = Field(default_factory=dict)
 
     @property
@@ -71,18 +60,13 @@ class ReferenceTransfer(Strict):
 
 
 class ReferenceCompliances(Strict):
-    """Runs of one arm with recorded torques, whose drives must give way alike.
-
-    Attributes:
-        runs: which.
-        together: runs that are also fitted together, with a base and a tool each, by what to call them.
-        learned_on: the run of the figures.
-        microrad_per_nm: compliance of the drive by joint, as others found it there.
-    """
+    """Runs of one arm with recorded torques, whose drives must give way alike."""
 
     runs: tuple[str, ...] = Field(min_length=2)
+    # runs that are also fitted together, with a base and a tool each, by what to call them
     together: dict[str, tuple[str, ...]] = Field(default_factory=dict)
-    learned_on: str
+    learned_on: str  # the run of the figures
+    # compliance of the drive by joint, as others found it there
     microrad_per_nm: dict[int, Positive] = Field(min_length=1)
 
 
@@ -96,9 +80,5 @@ class Reference(Strict):
 
 
 def load_reference(path: Path | str) -> Reference:
-    """Read reference.yaml.
-
-    Raises:
-        InputError: it says something that can't be.
-    """
+    """Read reference.yaml. Raises InputError: it says something that can't be."""
     return load(Reference, path)

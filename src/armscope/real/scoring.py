@@ -76,11 +76,8 @@ class Scores:
 
 
 def read_sealed(folder: Path) -> Iterator[Sealed]:
-    """Every world of the concealment with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of the concealment with its answer. Raises InputError: a diagnosing job could see more than it
+    may."""
     for batch, archive in sealed_batches(folder):
         name, _, part = batch.rpartition("-")
         for world, (truth, readings) in sorted(unsealed(archive).items()):
@@ -88,11 +85,7 @@ def read_sealed(folder: Path) -> Iterator[Sealed]:
 
 
 def score(worlds: Sequence[Sealed]) -> Scores:
-    """Score every world against its arm's original.
-
-    Raises:
-        InputError: an arm without its original.
-    """
+    """Score every world against its arm's original. Raises InputError: an arm without its original."""
     originals = {world.set: world for world in worlds if world.truth["kind"] == "original"}
     cases, numbers, skipped = [], [], {}
     drawn: set[tuple[str, str]] = set()
@@ -146,7 +139,9 @@ def _case(world: Sealed, original: Sealed) -> tuple[dict[str, Any], list[Compare
         "right_place": outcome != "missed",
         "said": "" if claim is None else f"{claim.effect} {claim.location}",
         "size_ratio": _size_ratio(compared),
-        "row_right": _row_right(truth, world.truth, now) if JUMP in world.truth and outcome == "named" else None,
+        "row_right": any(_in_jump(world.truth, claim) for claim in now if claim.name == truth.name)
+        if JUMP in world.truth and outcome == "named"
+        else None,
         "had_it_before": truth.name in had,
         "new_names": len({each.name for each in new}),
         "new": names_in_a_cell(sorted({each.name for each in new})),
@@ -234,10 +229,6 @@ def _waves_together(planted: dict[str, tuple[float, str]], own: NamedEffect) -> 
 def _in_jump(content: dict[str, Any], claim: NamedEffect) -> bool:
     low, high = content[JUMP]
     return ROW in claim.parameters and low < claim.parameters[ROW][0] <= high
-
-
-def _row_right(truth: Concealed, content: dict[str, Any], now: Sequence[NamedEffect]) -> bool:
-    return any(_in_jump(content, claim) for claim in now if claim.name == truth.name)
 
 
 def _size_ratio(compared: Sequence[Compared]) -> float:

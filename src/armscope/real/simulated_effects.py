@@ -22,8 +22,7 @@ from armscope.world.statics import Hidden, Session, balance
 from armscope.world.strength import frame_columns, make_scene
 from armscope.world.tolerances import geometric_errors
 
-SPRING = KINDS["joint_compliance"]
-"""What gives way under the recorded torque where there is one."""
+SPRING = KINDS["joint_compliance"]  # What gives way under the recorded torque where there is one
 
 
 class SimulatedEffects:

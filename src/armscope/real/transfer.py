@@ -9,10 +9,10 @@ import numpy as np
 import pandas as pd
 
 from armscope.calibration.fit import least_squares, placed
+from armscope.calibration.geometry import State
 from armscope.calibration.held_out import held_out_levels
 from armscope.calibration.model import LEVELS, Level, SetUp, set_up
 from armscope.calibration.solve import Priors, solve
-from armscope.calibration.state import State
 from armscope.core.averages import rms_distance
 from armscope.core.types import unheard
 from armscope.diagnosis import Diagnosis, Settings, diagnose
@@ -24,8 +24,7 @@ from armscope.real.reference import ReferenceTransfer
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 
-COMPLIANCES = "compliances"
-"""Compliances alone are carried over; the rest of the arm stays nominal."""
+COMPLIANCES = "compliances"  # Compliances alone are carried over; the rest of the arm stays nominal
 ARMSCOPE_ELASTIC = "armscope, elastic part alone"
 GEOMETRY_HERE, WITH_CURVES = "geometric, fitted here", "geometric, fitted here, other run's curves"
 """Held out: every D-H value is fitted to training rows of the run itself, without and with curves learned elsewhere."""

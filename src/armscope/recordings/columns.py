@@ -16,8 +16,7 @@ from armscope.recordings.constants import POSSIBLE, READING
 from armscope.recordings.first_lines import is_motion
 
 AXES_MM = ["x_mm", "y_mm", "z_mm"]
-ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]
-"""Of the tool point, measured minus nominal, in tables of studies."""
+ERROR_COLUMNS = ["dx_mm", "dy_mm", "dz_mm"]  # Of the tool point, measured minus nominal, in tables of studies
 QUATERNION = ["qw", "qx", "qy", "qz"]
 
 UNITS: dict[str, float] = {
@@ -37,30 +36,22 @@ UNITS: dict[str, float] = {
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the contract.
+    """A column of the contract."""
 
-    Attributes:
-        name: as it stands in the header; ``{j}`` is the motor's number, from 1.
-        unit: of its numbers; empty for words.
-        meaning: what it says, with sign and frame.
-        low, high: no row holds less or more.
-        rule: why, in the words of an error; says the source of the range.
-    """
-
-    name: str
-    unit: str
-    meaning: str
+    name: str  # as it stands in the header; ``{j}`` is the motor's number, from 1
+    unit: str  # of its numbers; empty for words
+    meaning: str  # what it says, with sign and frame
+    # low, high: no row holds less or more
     low: float = -POSSIBLE.number
     high: float = POSSIBLE.number
-    rule: str = ""
+    rule: str = ""  # why, in the words of an error; says the source of the range
 
     def matches(self, header: str) -> bool:
         """Whether a header is this column, small and capital letters told apart."""
         return re.fullmatch(self.name.replace("{j}", r"[1-9]\d*"), header) is not None
 
 
-LONGEST_UNIT = 1 + POSSIBLE.off_unit
-"""Of a unit quaternion's number, as it is printed."""
+LONGEST_UNIT = 1 + POSSIBLE.off_unit  # Of a unit quaternion's number, as it is printed
 _ANGLE = "commanded angle of motor {j}; motors are counted from the base, the sign is the one of the robot's model"
 _POINT = "measured tool point along {axis} of the measurement frame, which may stand anywhere"
 _TURN = "measured orientation, measurement frame from tool frame, as a unit quaternion ({part}); all four or none"
@@ -199,20 +190,13 @@ class Names:
         return InputError(self.source, "line 1", found, rule, cure)
 
     def check_one_unit(self, one: str, other: str) -> None:
-        """Refuse a quantity that stands there twice.
-
-        Raises:
-            InputError: both columns are there.
-        """
+        """Refuse a quantity that stands there twice. Raises InputError: both columns are there."""
         if one in self.columns and other in self.columns:
             raise self._error(f"{one} and {other}", "one column per quantity", "Remove one of them.")
 
     def motor_angles(self, n_motors: int | None) -> list[str]:
-        """The columns of ``n_motors`` motors' angles, or of as many as there are.
-
-        Raises:
-            InputError: there are none, or others.
-        """
+        """The columns of ``n_motors`` motors' angles, or of as many as there are. Raises InputError: there are none,
+        or others."""
         matches = (re.fullmatch(r"q([1-9]\d*)_(?:rad|deg)", name) for name in self.columns)
         found = {int(m[1]): m[0] for m in matches if m}
         self._refuse_slides()
@@ -259,11 +243,8 @@ class Names:
         )
 
     def positions(self, measured: bool) -> list[str]:
-        """The columns of measured points; none where there are none and they need not be ``measured``.
-
-        Raises:
-            InputError: some are missing, or they stand there twice.
-        """
+        """The columns of measured points; none where there are none and they need not be ``measured``. Raises
+        InputError: some are missing, or they stand there twice."""
         for axis in "xyz":
             self.check_one_unit(f"{axis}_mm", f"{axis}_m")
         for unit in ("mm", "m"):
@@ -283,10 +264,7 @@ class Names:
 
     def _refuse_motion(self) -> None:
         """Where there are no points: a table of an arm in motion, or one of which nothing but angles was recorded.
-
-        Raises:
-            InputError: it is either.
-        """
+        Raises InputError: it is either."""
         points = "measured positions stand in x_mm, y_mm, z_mm (or _m)"
         if is_motion(list(self.columns)):
             cure = "It is a table of an arm in motion: `armscope diagnose`, `check` and `predict` take it."

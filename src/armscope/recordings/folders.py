@@ -12,11 +12,8 @@ ROBOT = "robot.yaml"
 
 
 def table_in(given: Path) -> Path:
-    """The table in a folder; a path that is no folder is the table itself.
-
-    Raises:
-        InputError: a folder has none, or more than one.
-    """
+    """The table in a folder; a path that is no folder is the table itself. Raises InputError: a folder has none, or
+    more than one."""
     if not given.is_dir():
         return given
     there = [name for name in TABLES if (given / name).exists()]
@@ -32,11 +29,8 @@ def robot_in(given: Path) -> Path | None:
 
 
 def robot_for(robot: Path | None, given: Path) -> Path:
-    """The nominal arm: as said, else robot.yaml of the folder that was given for a table.
-
-    Raises:
-        InputError: nothing was said, and there is no such folder or no such file in it.
-    """
+    """The nominal arm: as said, else robot.yaml of the folder that was given for a table. Raises InputError: nothing
+    was said, and there is no such folder or no such file in it."""
     known = robot or robot_in(given)
     if known is not None:
         return known

@@ -30,7 +30,6 @@ def sides_of_last_moves(recordings: Recordings, kept: bool = False) -> Array:
     """From which side each motor came to each row, if rows were measured in the order of their time or number.
 
     Args:
-        recordings: N rows, in any order.
         kept: whether a motor that stood still from one row to the next still rests on the side that it came from
             before, as gears under load do; else it is on none, as one that relaxes is.
 

@@ -29,36 +29,25 @@ SCALE = {"rad": 1.0, "deg": np.pi / 180, "m": 1.0}
 
 @dataclass(frozen=True, eq=False)
 class Motions:
-    """N samples of an arm with m motors; SI units; NaN where a value was not recorded.
+    """N samples of an arm with m motors; SI units; NaN where a value was not recorded."""
 
-    Attributes:
-        time: (N,) s, from any start in each run.
-        q: (N, m) motor positions, rad or m.
-        effort: (N, m) motor torque, N m (N for a sliding joint), or current, A: see ``kind``.
-        kind: whether effort is torque or current.
-        sliding: (m,) whether a position is a length.
-        run: (N,) text; "" where the table has no such column.
-        dq, ddq, command: (N, m) recorded velocity, acceleration, commanded position; each or None.
-        payload: (N,) kg; temperature: (N, m) deg C; each or None; NaN only in runs that have none at all.
-        link: (N, m) positions of the links behind their drives, rad or m; NaN where none is recorded; or None.
-        notes: what a user should know about how the table was read.
-        source: the file's name, for messages.
-    """
-
-    time: Array
-    q: Array
-    effort: Array
-    kind: Literal["torque", "current"]
-    sliding: NDArray[np.bool_]
-    run: NDArray[np.str_]
+    time: Array  # (N,) s, from any start in each run
+    q: Array  # (N, m) motor positions, rad or m
+    effort: Array  # (N, m) motor torque, N m (N for a sliding joint), or current, A: see ``kind``
+    kind: Literal["torque", "current"]  # whether effort is torque or current
+    sliding: NDArray[np.bool_]  # (m,) whether a position is a length
+    run: NDArray[np.str_]  # (N,) text; "" where the table has no such column
+    # dq, ddq, command: (N, m) recorded velocity, acceleration, commanded position; each or None
     dq: Array | None = None
     ddq: Array | None = None
     command: Array | None = None
+    # (N,) kg; temperature: (N, m) deg C; each or None; NaN only in runs that have none at all
     payload: Array | None = None
     temperature: Array | None = None
+    # (N, m) positions of the links behind their drives, rad or m; NaN where none is recorded; or None
     link: Array | None = None
-    notes: tuple[str, ...] = ()
-    source: str = ""
+    notes: tuple[str, ...] = ()  # what a user should know about how the table was read
+    source: str = ""  # the file's name, for messages
 
     def __len__(self) -> int:
         return len(self.time)

@@ -28,11 +28,8 @@ UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def start_of(path: Path, what: str) -> bytes:
-    """The first bytes of a file, unpacked where it is gzipped; ``what`` it is, for the error.
-
-    Raises:
-        InputError: no readable file.
-    """
+    """The first bytes of a file, unpacked where it is gzipped; ``what`` it is, for the error. Raises InputError: no
+    readable file."""
     note_read(path)
     try:
         with at_hand(path).open("rb") as stream:
@@ -72,11 +69,7 @@ def _refuse_bombs(path: Path, what: str) -> None:
 
 
 def refuse_pickles(path: Path, start: bytes) -> None:
-    """Python object files are never loaded.
-
-    Raises:
-        InputError: this is one, by its suffix or its first bytes.
-    """
+    """Python object files are never loaded. Raises InputError: this is one, by its suffix or its first bytes."""
     if path.suffix.lower() in PICKLE_SUFFIXES or start.startswith(PICKLES):
         raise InputError(
             path,

@@ -18,11 +18,8 @@ class NotARotation(ValueError):
 
 
 def from_quaternions(values: Array, order: str) -> Array:
-    """(N, 4) in ``order`` ("wxyz" or "xyzw") to (N, 4) wxyz; NaN rows stay NaN.
-
-    Raises:
-        NotARotation: a length that is not 1 within 1 %.
-    """
+    """(N, 4) in ``order`` ("wxyz" or "xyzw") to (N, 4) wxyz; NaN rows stay NaN. Raises NotARotation: a length that
+    is not 1 within 1 %."""
     norm = np.linalg.norm(values, axis=1)
     wrong = np.flatnonzero(np.abs(norm - 1) > POSSIBLE.off_unit)
     if len(wrong):
@@ -44,11 +41,8 @@ def from_rotation_vectors(vectors: Array) -> Array:
 
 
 def from_matrices(values: Array) -> Array:
-    """(N, 3, 3) to (N, 4) wxyz.
-
-    Raises:
-        NotARotation: axes that are not of unit length and at right angles, or form a left-handed frame.
-    """
+    """(N, 3, 3) to (N, 4) wxyz. Raises NotARotation: axes that are not of unit length and at right angles, or form a
+    left-handed frame."""
     finite = np.isfinite(values).all(axis=(1, 2))
     off = np.abs(np.swapaxes(values, 1, 2) @ values - np.eye(3)).max(axis=(1, 2))
     wrong = np.flatnonzero(finite & (off > POSSIBLE.off_unit))

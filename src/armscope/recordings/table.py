@@ -26,44 +26,30 @@ NO_RUNS = "The table names no runs (column run): without --run all of its rows a
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Recordings(InWords):
-    """N measured points of an arm with m motors; SI units; NaN where a context value was not recorded.
+    """N measured points of an arm with m motors; SI units; NaN where a context value was not recorded."""
 
-    Attributes:
-        motor_angles: (N, m) commanded, rad.
-        positions: (N, 3) measured tool points in the measurement frame, m; NaN for poses without a measurement.
-        run, target, id: (N,) text; "" where the table has no such column (``id``: the row's number).
-        orientation: (N, 4) unit quaternions (w, x, y, z), measurement frame from tool frame, or None.
-        time: (N,) s; temperature: (N,) deg C; payload: (N,) kg at the tool point; each or None.
-        approach: (N, m) -1 or +1, sign of each motor's last motion, or None.
-        sides_by_order: whether nobody recorded ``approach``: it is what the order of the rows tells, if they were
-            measured in it.
-        speed: (N, m) rad/s; torque: (N, m) N m; each or None.
-        sigma: (N, 3) stated 1-sigma uncertainty per axis, m, or None.
-        number: (N,) of each row in the order of the table as it was read: its id where ids are numbers that rise in
-            every run, else counted from 1. NaN for a pose of now, after all that was recorded: what jumped at some
-            row has jumped, where a wander in the order of rows stands is not known.
-        extra: the table's other columns, as read.
-        notes: what a user should know about how the table was read.
-        source: the file's name, for messages.
-    """
-
-    motor_angles: Array
-    positions: Array
+    motor_angles: Array  # (N, m) commanded, rad
+    positions: Array  # (N, 3) measured tool points in the measurement frame, m; NaN for poses without a measurement
+    # run, target, id: (N,) text; "" where the table has no such column (``id``: the row's number)
     run: NDArray[np.str_]
     target: NDArray[np.str_]
     id: NDArray[np.str_]
-    orientation: Array | None = None
-    time: Array | None = None
+    orientation: Array | None = None  # (N, 4) unit quaternions (w, x, y, z), measurement frame from tool frame, or None
+    time: Array | None = None  # (N,) s; temperature: (N,) deg C; payload: (N,) kg at the tool point; each or None
     temperature: Array | None = None
     payload: Array | None = None
-    approach: Array | None = None
-    speed: Array | None = None
+    approach: Array | None = None  # (N, m) -1 or +1, sign of each motor's last motion, or None
+    speed: Array | None = None  # (N, m) rad/s; torque: (N, m) N m; each or None
     torque: Array | None = None
-    sigma: Array | None = None
+    sigma: Array | None = None  # (N, 3) stated 1-sigma uncertainty per axis, m, or None
+    # (N,) of each row in the order of the table as it was read: its id where ids are numbers that rise in every run,
+    # else counted from 1. NaN for a pose of now, after all that was recorded: what jumped at some row has jumped, where
+    # a wander in the order of rows stands is not known
     number: Array = field(default_factory=lambda: np.empty(0))
-    extra: pd.DataFrame | None = None
-    notes: tuple[str, ...] = ()
-    source: str = ""
+    extra: pd.DataFrame | None = None  # the table's other columns, as read
+    notes: tuple[str, ...] = ()  # what a user should know about how the table was read
+    source: str = ""  # the file's name, for messages
+    # whether nobody recorded ``approach``: it is what the order of the rows tells, if they were measured in it
     sides_by_order: bool = False
 
     def __post_init__(self) -> None:
@@ -104,11 +90,8 @@ class Recordings(InWords):
         return int(self.motor_angles.shape[1])
 
     def check_motors(self, arm: str, count: int) -> None:
-        """Refuse the table of another arm than the one of this name and number of motors.
-
-        Raises:
-            InputError: it has another number of motor angles.
-        """
+        """Refuse the table of another arm than the one of this name and number of motors. Raises InputError: it has
+        another number of motor angles."""
         if self.n_motors != count:
             rule = f"{arm} has {count} motors"
             cure = "Is this the right robot for the table?"
@@ -125,11 +108,8 @@ class Recordings(InWords):
         return replace(self, **per_row, extra=extra)
 
     def of_runs(self, runs: Collection[str], first_id: int | None = None) -> Recordings:
-        """The rows of some runs (none named: of all), from an id on.
-
-        Raises:
-            InputError: a run that no row has, or nothing left.
-        """
+        """The rows of some runs (none named: of all), from an id on. Raises InputError: a run that no row has, or
+        nothing left."""
         known = set(self.run.tolist())
         for run in runs:
             if run not in known:

@@ -22,27 +22,18 @@ from armscope.recordings.other_formats import what_it_is
 if TYPE_CHECKING:
     import pandas as pd  # slow to import
 
-WORDS = ("id", "run", "target")
-"""Columns that are words, even where they look like numbers or like a name for no value."""
+WORDS = ("id", "run", "target")  # Columns that are words, even where they look like numbers or like a name for no value
 
 
-Piece = tuple[int, int]
-"""Where whole lines of a file start and end, bytes."""
+Piece = tuple[int, int]  # Where whole lines of a file start and end, bytes
 
 NO_VALUE = ("", "NaN", "nan", "NA", "N/A", "n/a", "#N/A", "null", "NULL", "None", "-nan", "-NaN", "<NA>")
 """What stands for no value in a column of numbers."""
 
 
 def read_text_table(path: Path, check: Callable[[list[str]], object] = lambda header: None) -> pd.DataFrame:
-    """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text.
-
-    Args:
-        path: of the file.
-        check: refuses a header that can't be used, before the rest is read.
-
-    Raises:
-        InputError: it is no such table.
-    """
+    """A CSV file (gzipped or not) with a header and equally long rows; id, run and target stay text. ``check``:
+    refuses a header that can't be used, before the rest is read. Raises InputError: it is no such table."""
     with pipes_kept():
         return _table(path, check)
 

@@ -19,19 +19,12 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class MotionSubject:
-    """A diagnosis of a motion, and the names of its files.
-
-    Attributes:
-        found: the diagnosis.
-        source: the table's name.
-        robot: the arm's file, as the user named it.
-        folder: where the diagnosis is written, as the user named it.
-    """
+    """A diagnosis of a motion, and the names of its files."""
 
     found: MotionDiagnosis
-    source: str
-    robot: Path | str = "robot.yaml"
-    folder: Path | str = ""
+    source: str  # the table's name
+    robot: Path | str = "robot.yaml"  # the arm's file, as the user named it
+    folder: Path | str = ""  # where the diagnosis is written, as the user named it
 
     @property
     def verdict(self) -> MotionVerdict:
@@ -100,15 +93,7 @@ class HeldOutRows:
 
 
 def liveliest_piece(parts: Sequence[HeldOutTorque], most: int) -> tuple[HeldOutTorque, slice]:
-    """Of all rows that were held out, the piece without a gap in which most happens while joints move.
-
-    Args:
-        parts: what was held out, part by part.
-        most: rows that the piece has at most.
-
-    Returns:
-        The part, and which of its rows.
-    """
+    """Of all rows that were held out, the piece without a gap in which most happens while joints move."""
     found = [(*_liveliest(part, most), part) for part in parts]
     _, piece, part = max(found, key=lambda each: each[0])
     return part, piece

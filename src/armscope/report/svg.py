@@ -13,24 +13,17 @@ from armscope.core.types import Array
 from armscope.report.colours import INK, LINE, QUIET
 
 FONT = "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
-LETTER = 0.56
-"""Width of a letter in heights of its font, on average."""
-TINY = 1e-300
-"""Below it steps between ticks are no numbers any more."""
+LETTER = 0.56  # Width of a letter in heights of its font, on average
+TINY = 1e-300  # Below it steps between ticks are no numbers any more
 
 
 @dataclass
 class Drawing:
-    """Shapes in px, y downwards; those of a lower order lie below.
-
-    Attributes:
-        width, height: of the picture.
-        alt: what it shows, for those who can't see it.
-    """
+    """Shapes in px, y downwards; those of a lower order lie below."""
 
     width: float
     height: float
-    alt: str = ""
+    alt: str = ""  # what it shows, for those who can't see it
     _shapes: list[tuple[float, str]] = field(default_factory=list, repr=False)
 
     def add(self, shape: str, order: float = 0.0) -> None:

@@ -10,9 +10,9 @@ import numpy as np
 import pinocchio as pin
 
 from armscope.core.inputs import InputError
-from armscope.core.numerals import size_of
 from armscope.core.told import InWords
 from armscope.core.types import Array
+from armscope.core.words import size_of
 from armscope.robot.arm_type import ArmType
 from armscope.robot.constants import ARMS
 from armscope.robot.description import RobotDescription
@@ -25,36 +25,21 @@ class Arm(InWords):
     """An arm of n chain joints moved by m motors; SI units.
 
     The chain is ``prod_j [before_j * Rz(theta_j)] * tip * tool``, with theta = actuation @ q for motor angles q.
-
-    Attributes:
-        description: what robot.yaml says.
-        model: the pinocchio model that all arrays below come from.
-        before: (n, 4, 4) from the turned frame of joint j-1 to the frame of joint j, whose z is the axis.
-        behind: (n, 4, 4) from the turned frame of joint j to link frame j (the D-H frame; identity for a URDF).
-        tip: (4, 4) from the turned frame of the last joint to the last frame.
-        tool: (3,) nominal tool point in the last frame, m.
-        masses: (n,) kg, tool load included; zeros where the description has no masses (see `has_masses`).
-        centres: (n, 3) centres of mass in the turned frames of the joints, m.
-        gravity: (3,) in the base frame, m/s^2.
-        actuation: (n, m) chain angles by motor angles.
-        limits: (m, 2) motor angles, rad; infinite where not stated.
-        sigma: 1-sigma noise per axis, m; None where not stated.
-        type: what other arms of its type have shown.
     """
 
     description: RobotDescription
-    model: pin.Model
-    before: Array
-    behind: Array
-    tip: Array
-    tool: Array
-    masses: Array
-    centres: Array
-    gravity: Array
-    actuation: Array
-    limits: Array
-    sigma: float | None
-    type: ArmType = field(default_factory=ArmType)
+    model: pin.Model  # the pinocchio model that all arrays below come from
+    before: Array  # (n, 4, 4) from the turned frame of joint j-1 to the frame of joint j, whose z is the axis
+    behind: Array  # (n, 4, 4) from the turned frame of joint j to link frame j (the D-H frame; identity for a URDF)
+    tip: Array  # (4, 4) from the turned frame of the last joint to the last frame
+    tool: Array  # (3,) nominal tool point in the last frame, m
+    masses: Array  # (n,) kg, tool load included; zeros where the description has no masses (see `has_masses`)
+    centres: Array  # (n, 3) centres of mass in the turned frames of the joints, m
+    gravity: Array  # (3,) in the base frame, m/s^2
+    actuation: Array  # (n, m) chain angles by motor angles
+    limits: Array  # (m, 2) motor angles, rad; infinite where not stated
+    sigma: float | None  # 1-sigma noise per axis, m; None where not stated
+    type: ArmType = field(default_factory=ArmType)  # what other arms of its type have shown
 
     def sentences(self) -> tuple[str, ...]:
         """Motors, reach, what is stated of masses and noise, and who takes it."""
@@ -117,11 +102,7 @@ class Arm(InWords):
 
 
 def load_arm(path: Path | str) -> Arm:
-    """The arm of a robot.yaml.
-
-    Raises:
-        InputError: the file can't be read or says something impossible.
-    """
+    """The arm of a robot.yaml. Raises InputError: the file can't be read or says something impossible."""
     return build_arm(load_description(path))
 
 

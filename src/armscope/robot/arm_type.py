@@ -49,16 +49,11 @@ class PriorsContent(Strict):
 
 @dataclass(frozen=True)
 class ArmType:
-    """What is known of a type of arm before one of them is measured; by default nothing.
+    """What is known of a type of arm before one of them is measured; by default nothing."""
 
-    Attributes:
-        source: the file, for errors.
-        title: the type's name, and of how many arms it is known.
-        sizes: by "effect at location" and parameter, in the parameter's file unit.
-    """
-
-    source: str = ""
-    title: str = ""
+    source: str = ""  # the file, for errors
+    title: str = ""  # the type's name, and of how many arms it is known
+    # by "effect at location" and parameter, in the parameter's file unit
     sizes: Mapping[str, Mapping[str, LearnedSize]] = field(default_factory=dict)
 
 

@@ -16,17 +16,11 @@ from armscope.robot.on_a_stand import OnAStand, on_a_stand
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """An arm's links with what they carry at each of N samples.
-
-    Attributes:
-        arm: the arm.
-        inertial: (10 n,) inertial parameters of the links.
-        payload: (N,) kg at the tool point, or None.
-    """
+    """An arm's links with what they carry at each of N samples."""
 
     arm: MovingArm
-    inertial: Array
-    payload: Array | None
+    inertial: Array  # (10 n,) inertial parameters of the links
+    payload: Array | None  # (N,) kg at the tool point, or None
 
     def among(self, some: slice) -> Bodies:
         """With what they carry at some of the samples."""

@@ -208,11 +208,8 @@ class RobotDescription(Strict):
         return self
 
     def check_motors(self, n_joints: int, joints: str) -> None:
-        """Whether what is said by motor fits the number of joints, which for a URDF only its file tells.
-
-        Raises:
-            ValueError: it does not; ``joints`` is what the joints are called in the message.
-        """
+        """Whether what is said by motor fits the number of joints, which for a URDF only its file tells. Raises
+        ValueError: it does not; ``joints`` is what the joints are called in the message."""
         if self.actuation is not None and len(self.actuation) != n_joints:
             raise ValueError(
                 f"`actuation` needs one entry for each of the {n_joints} {joints}, it has {len(self.actuation)}"

@@ -35,15 +35,8 @@ def load_description(path: Path | str) -> RobotDescription:
 
 
 def described(content: Any, path: Path | str) -> RobotDescription:
-    """A description by the content of a robot.yaml.
-
-    Args:
-        content: as read from YAML.
-        path: of the file, from which its URDF is looked for.
-
-    Raises:
-        InputError: as `load_description`.
-    """
+    """A description by the content of a robot.yaml. ``path``: of the file, from which its URDF is looked for. Raises
+    InputError: as `load_description`."""
     description = validate(RobotDescription, content, path)
     _refuse_other_units(description, path)
     if description.urdf is not None:
@@ -56,15 +49,8 @@ def described(content: Any, path: Path | str) -> RobotDescription:
 
 
 def describe_urdf(path: Path | str, tip: str | None = None) -> RobotDescription:
-    """A URDF's one arm, with whatever is guessed under `source`.
-
-    Args:
-        path: of the URDF.
-        tip: the frame that carries the tool; None guesses it.
-
-    Raises:
-        InputError: it is no URDF, or has no arm, or several.
-    """
+    """A URDF's one arm, with whatever is guessed under `source`. ``tip``: the frame that carries the tool; None
+    guesses it. Raises InputError: it is no URDF, or has no arm, or several."""
     root = root_of(str(path))
     found = guess_chain(str(path), root, tip)
     name = root.get("name") or Path(path).stem
@@ -92,11 +78,8 @@ def guesses(description: RobotDescription) -> list[str]:
 
 
 def _refuse_other_units(description: RobotDescription, path: Path | str) -> None:
-    """Metres and radians are told from millimetres and degrees by what no arm is.
-
-    Raises:
-        InputError: lengths in metres, or angles in radians.
-    """
+    """Metres and radians are told from millimetres and degrees by what no arm is. Raises InputError: lengths in
+    metres, or angles in radians."""
     rows = () if description.dh is None else description.dh.joints
     lengths = sum(abs(row.a_mm) + abs(row.d_mm) for row in rows)
     if 0 < lengths < ARMS.shortest_mm:

@@ -36,10 +36,6 @@ class ThetaCell:
 def motors_of_rows(thetas: Sequence[ThetaCell], source: dict[str, str]) -> tuple[dict[str, float], ...] | None:
     """What turns each row, by motor.
 
-    Args:
-        thetas: what each row says about its angle.
-        source: is told what was guessed of it.
-
     Returns:
         `actuation` of robot.yaml; None where each row's joint turns it as it is counted.
 

@@ -26,10 +26,8 @@ COLUMNS = {
     "": r"(joint|link|row|j|i|no|nr|#|kinematics|axis|)",
 }
 """What the columns are called; the last are no numbers of a row."""
-DIGITS_APART = re.compile(r"\d,\d")
-"""A comma that may be a decimal one."""
-USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")
-"""The order where no header says one."""
+DIGITS_APART = re.compile(r"\d,\d")  # A comma that may be a decimal one
+USUAL = ("a_mm", "alpha_deg", "d_mm", "theta_offset_deg")  # The order where no header says one
 
 Convention = Literal["standard", "modified"]
 

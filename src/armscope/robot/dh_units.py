@@ -72,10 +72,7 @@ def _guess_angle(rows: Sequence[DHLine], source: dict[str, str]) -> str:
 
 def _refuse_mixed_angles(rows: Sequence[DHLine]) -> None:
     """Quarter turns in radians beside angles that can only be degrees: whichever unit is guessed, some are wrong.
-
-    Raises:
-        InputError: there are both.
-    """
+    Raises InputError: there are both."""
     angles = [(row.number, name.partition("_")[0], _plain(row, name)) for row in rows for name in ANGLES]
     line, name, most = max(angles, key=lambda each: abs(each[2]))
     if abs(most) < GUESSES.radians_up_to:

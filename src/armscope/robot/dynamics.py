@@ -24,29 +24,19 @@ UNITS = ("kg", *("kg m",) * 3, *("kg m^2",) * 6)
 
 @dataclass(frozen=True, eq=False)
 class MovingArm:
-    """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units, N m (N where a joint slides).
-
-    Attributes:
-        description: what robot.yaml says.
-        model: the pinocchio model of the chain.
-        inertial: (10 n,) stated inertial parameters, `PARAMETERS` of each link.
-        actuation: (n, m) chain positions by motor positions.
-        sliding: (m,) whether a motor's position is a length.
-        gains: (m,) N m per A; NaN where not stated.
-        gain_uncertainty: (m,) 1-sigma as a share; NaN where not stated.
-        stated_background: (m, 4) torque offset (always NaN), dry friction, viscous friction and rotor inertia of the
-            drives, SI; NaN where not stated.
-        attached: bodies that are fixed to a moving link: name and (10 n,) inertial parameters of each.
-    """
+    """An arm of n chain joints moved by m motors, as inverse dynamics needs it; SI units (N where it slides)."""
 
     description: RobotDescription
-    model: pin.Model
-    inertial: Array
-    actuation: Array
-    sliding: NDArray[np.bool_]
-    gains: Array
-    gain_uncertainty: Array
+    model: pin.Model  # the pinocchio model of the chain
+    inertial: Array  # (10 n,) stated inertial parameters, `PARAMETERS` of each link
+    actuation: Array  # (n, m) chain positions by motor positions
+    sliding: NDArray[np.bool_]  # (m,) whether a motor's position is a length
+    gains: Array  # (m,) N m per A; NaN where not stated
+    gain_uncertainty: Array  # (m,) 1-sigma as a share; NaN where not stated
+    # (m, 4) torque offset (always NaN), dry friction, viscous friction and rotor inertia of the drives, SI; NaN where
+    # not stated
     stated_background: Array
+    # bodies that are fixed to a moving link: name and (10 n,) inertial parameters of each
     attached: tuple[tuple[str, Array], ...] = ()
 
     @property
@@ -217,20 +207,13 @@ def leaning_gravity(down: Array) -> Array:
 
 
 def load_moving_arm(path: Path | str) -> MovingArm:
-    """The arm of a robot.yaml, for inverse dynamics.
-
-    Raises:
-        InputError: the file can't be read, says something impossible, or states no masses.
-    """
+    """The arm of a robot.yaml, for inverse dynamics. Raises InputError: the file can't be read, says something
+    impossible, or states no masses."""
     return build_moving_arm(load_description(path), path)
 
 
 def build_moving_arm(description: RobotDescription, source: Path | str = "robot.yaml") -> MovingArm:
-    """The arm of a description.
-
-    Raises:
-        InputError: it states no masses, or joints that are not possible.
-    """
+    """The arm of a description. Raises InputError: it states no masses, or joints that are not possible."""
     model = pinocchio_model(description, sliding=True)
     n_links = model.njoints - 1
     masses = np.array([model.inertias[joint].mass for joint in range(1, model.njoints)])
@@ -264,11 +247,8 @@ def build_moving_arm(description: RobotDescription, source: Path | str = "robot.
 
 
 def attached_bodies(model: pin.Model) -> tuple[tuple[str, Array], ...]:
-    """Bodies that fixed or locked joints hold to a moving link, each with what it carries.
-
-    Returns:
-        Name and (10 n,) inertial parameters, SI, in the frames of the links, of each.
-    """
+    """Bodies that fixed or locked joints hold to a moving link, each with what it carries. Returns name and (10 n,)
+    inertial parameters, SI, in the frames of the links, of each."""
     found: dict[bytes, tuple[str, Array]] = {}
     for number, frame in enumerate(model.frames):
         if frame.type not in (pin.FrameType.FIXED_JOINT, pin.FrameType.JOINT) or frame.parentJoint == 0:

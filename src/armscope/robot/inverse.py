@@ -29,17 +29,11 @@ BEYOND_REACH = "beyond reach"
 
 @dataclass(frozen=True, eq=False)
 class PathSolution:
-    """Motor angles along a path of N points.
+    """Motor angles along a path of N points."""
 
-    Attributes:
-        targets: (N, 3) where the tool should be, in the base frame, m.
-        motor_angles: (N, m) rad; NaN in rows that can't be reached.
-        reasons: (N,) "" where reached, else "beyond reach", "limit of joint j" or "jump of joint j".
-    """
-
-    targets: Array
-    motor_angles: Array
-    reasons: NDArray[np.str_]
+    targets: Array  # (N, 3) where the tool should be, in the base frame, m
+    motor_angles: Array  # (N, m) rad; NaN in rows that can't be reached
+    reasons: NDArray[np.str_]  # (N,) "" where reached, else "beyond reach", "limit of joint j" or "jump of joint j"
 
     @property
     def reached(self) -> NDArray[np.bool_]:
@@ -48,11 +42,8 @@ class PathSolution:
         return reached
 
     def require_all(self, source: object) -> Array:
-        """The motor angles, if every point is reached.
-
-        Raises:
-            InputError: names ``source``, the first row that can't be reached, and why.
-        """
+        """The motor angles, if every point is reached. Raises InputError: names ``source``, the first row that can't
+        be reached, and why."""
         missed = np.flatnonzero(~self.reached)
         if len(missed):
             row = int(missed[0])

@@ -22,20 +22,14 @@ Twists = Mapping[str, Array]
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Frames of an arm at N poses, all expressed in the base frame (rotations (.., 3, 3), origins m).
+    """Frames of an arm at N poses, all expressed in the base frame (rotations (.., 3, 3), origins m)."""
 
-    Attributes:
-        joint_rotation, joint_origin: (N, n, 3, 3), (N, n, 3) frame of joint j before it turns; column z is its axis.
-        link_rotation, link_origin: (N, n, 3, 3), (N, n, 3) link frame j: D-H frame j, which moves with joint j.
-        tool_rotation, tool: (N, 3, 3), (N, 3) orientation of the last frame and the tool point.
-    """
-
-    joint_rotation: Array
-    joint_origin: Array
-    link_rotation: Array
-    link_origin: Array
-    tool_rotation: Array
-    tool: Array
+    joint_rotation: Array  # (N, n, 3, 3) frame of joint j before it turns; column z is its axis
+    joint_origin: Array  # (N, n, 3) frame of joint j before it turns; column z is its axis
+    link_rotation: Array  # (N, n, 3, 3) link frame j: D-H frame j, which moves with joint j
+    link_origin: Array  # (N, n, 3) link frame j: D-H frame j, which moves with joint j
+    tool_rotation: Array  # (N, 3, 3) orientation of the last frame
+    tool: Array  # (N, 3) the tool point
 
     def frame(self, location: str) -> tuple[Array, Array]:
         """Rotation (N, 3, 3) and origin (N, 3) of the frame at "base", "joint j", "link j" or "tool"."""
@@ -90,7 +84,6 @@ def tool_frames(arm: Arm, motor_angles: Array) -> tuple[Array, Array]:
     """Tool points and orientations alone, at any number of poses: all frames of some of them at a time.
 
     Args:
-        arm: the arm.
         motor_angles: (N, m) rad.
 
     Returns:
@@ -192,3 +185,31 @@ def _inverse(fixed: Array) -> Array:
     inverse[:3, :3] = fixed[:3, :3].T
     inverse[:3, 3] = -fixed[:3, :3].T @ fixed[:3, 3]
     return inverse
+
+
+def centre_lines(arm: Arm, frames: Chain) -> list[tuple[str, Array]]:
+    """(location, (N, K, 3) points, m, base axes) from the base to the tool: "base", "link 1", ..., "tool".
+
+    Each link's line bends once, so that offsets along an axis and across it both show.
+    """
+    origins, axes = frames.joint_origin, frames.joint_rotation[..., 2]
+    flange = frames.tool - frames.tool_rotation @ arm.tool
+    zero, joints = np.zeros_like(flange), range(origins.shape[1])
+    tool = np.stack([flange, frames.tool], axis=1)
+    if arm.is_modified_dh:
+        starts = np.concatenate([zero[:, None], origins[:, :-1]], axis=1)
+        lines = [(f"link {j + 1}", _bent_before(starts[:, j], origins[:, j], axes[:, j])) for j in joints]
+        return [*lines, ("tool", np.concatenate([origins[:, -1:], tool], axis=1))]
+    ends = np.concatenate([origins[:, 1:], flange[:, None]], axis=1)
+    lines = [(f"link {j + 1}", _bent_behind(origins[:, j], ends[:, j], axes[:, j])) for j in joints]
+    return [("base", np.stack([zero, origins[:, 0]], axis=1)), *lines, ("tool", tool)]
+
+
+def _bent_behind(start: Array, end: Array, axis: Array) -> Array:
+    """First along the axis of the joint at the start."""
+    return np.stack([start, start + axis * np.sum(axis * (end - start), axis=1, keepdims=True), end], axis=1)
+
+
+def _bent_before(start: Array, end: Array, axis: Array) -> Array:
+    """Last along the axis of the joint at the end."""
+    return np.stack([start, end - axis * np.sum(axis * (end - start), axis=1, keepdims=True), end], axis=1)

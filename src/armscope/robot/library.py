@@ -23,11 +23,8 @@ def nominal_names() -> tuple[str, ...]:
 
 
 def nominal_file(name: str) -> Path:
-    """The file of an arm; capitals, blanks and hyphens in its name don't count.
-
-    Raises:
-        InputError: the library has no arm of that name.
-    """
+    """The file of an arm; capitals, blanks and hyphens in its name don't count. Raises InputError: the library has
+    no arm of that name."""
     plain = {_plain(each): each for each in nominal_names()}
     if _plain(name) not in plain:
         raise InputError(name, "", name, "no file, and no arm of the library", nearest(name, nominal_names()))
@@ -35,11 +32,7 @@ def nominal_file(name: str) -> Path:
 
 
 def nominal_description(name: str) -> RobotDescription:
-    """An arm of the library.
-
-    Raises:
-        InputError: the library has no arm of that name.
-    """
+    """An arm of the library. Raises InputError: the library has no arm of that name."""
     return load(RobotDescription, nominal_file(name))
 
 

@@ -13,19 +13,12 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class OnAStand:
-    """At N samples, of m joints; about x and y of the base, which lie in its plate, through its origin.
+    """At N samples, of m joints; about x and y of the base, which lie in its plate, through its origin."""
 
-    Attributes:
-        moment: (N, 2) N m about both that the stand gives to hold and move the arm.
-        per_turning: (N, m, 2) N m of the motors per rad/s^2 of the base about both.
-        per_speed: (N, m, 2) N m of the motors per rad/s of the base about both.
-        per_turn: (N, m, 2) N m of the motors per rad by which the base leans about both.
-    """
-
-    moment: Array
-    per_turning: Array
-    per_speed: Array
-    per_turn: Array
+    moment: Array  # (N, 2) N m about both that the stand gives to hold and move the arm
+    per_turning: Array  # (N, m, 2) N m of the motors per rad/s^2 of the base about both
+    per_speed: Array  # (N, m, 2) N m of the motors per rad/s of the base about both
+    per_turn: Array  # (N, m, 2) N m of the motors per rad by which the base leans about both
 
 
 def on_a_stand(arm: MovingArm, motion: tuple[Array, Array, Array], inertial: Array) -> OnAStand:

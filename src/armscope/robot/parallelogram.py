@@ -43,7 +43,6 @@ def forearm_deviation(linkage: Linkage, elbow_angle: Array) -> Array:
     """How far the forearm turns beyond the ideal parallelogram, rad; NaN where the loop can't close.
 
     Args:
-        linkage: the bars' lengths.
         elbow_angle: (N,) angle of the chain's third joint, from the upper arm's direction to the forearm's x axis, rad.
 
     The rod's length fixes the rocker: |E + k u(psi) - C| = r with crank c u(gamma) and upper arm l along x gives

@@ -34,11 +34,8 @@ class SerialPart(NamedTuple):
 
 
 def read_urdf(path: str) -> pin.Model:
-    """The whole robot of a URDF; meshes are not looked at.
-
-    Raises:
-        InputError: it is no URDF, or one that contradicts itself.
-    """
+    """The whole robot of a URDF; meshes are not looked at. Raises InputError: it is no URDF, or one that contradicts
+    itself."""
     root_of(path)
     said: list[str] = []
     try:
@@ -67,11 +64,8 @@ def _errors_kept(said: list[str]) -> Iterator[None]:
 
 
 def cut(description: RobotDescription, full: pin.Model) -> SerialPart:
-    """What is locked, and where, so that the chain from the root to the tip is left without the joints that are held.
-
-    Raises:
-        InputError: the tip, or a joint to hold, is not there or not possible; or nothing is left.
-    """
+    """What is locked, and where, so that the chain from the root to the tip is left without the joints that are
+    held. Raises InputError: the tip, or a joint to hold, is not there or not possible; or nothing is left."""
     file, tip = description.urdf, str(description.tip)
     if not full.existFrame(tip):
         names = [frame.name for frame in full.frames]
@@ -163,11 +157,8 @@ def _to_hold(file: str | None, full: pin.Model, name: str, value: float) -> int:
 
 
 def _refuse_followers(description: RobotDescription, full: pin.Model, chain: list[int]) -> None:
-    """A joint that mimics another has no motor of its own, unless `actuation` says what turns it.
-
-    Raises:
-        InputError: the chain has one.
-    """
+    """A joint that mimics another has no motor of its own, unless `actuation` says what turns it. Raises InputError:
+    the chain has one."""
     followers = {int(full.getJointId(name)): (name, mimic) for name, mimic in _mimics(str(description.urdf), full)}
     for joint in chain:
         if joint not in followers:

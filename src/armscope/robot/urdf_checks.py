@@ -18,11 +18,7 @@ COUNTS = {3: "three", 6: "six"}
 
 
 def refuse_contradictions(path: str, root: ET.Element) -> None:
-    """Look at names, references, numbers and the tree.
-
-    Raises:
-        InputError: the first thing that is wrong.
-    """
+    """Look at names, references, numbers and the tree. Raises InputError: the first thing that is wrong."""
     links = [element.get("name", "") for element in root.findall("link")]
     joints = root.findall("joint")
     if len(joints) > ARMS.most_joints_of_robot:

@@ -17,8 +17,7 @@ TURNING = ("revolute", "continuous")
 TOOL_NAMES = ("tool0", "tool", "tcp", "tool_link", "tool_frame", "flange", "ee_link", "end_effector", "ee")
 """What the link that carries the tool is usually called, the commonest first (ROS-Industrial's convention)."""
 
-HANDS = ("gripper", "finger")
-"""Joints of these names open a hand; the arm ends before them."""
+HANDS = ("gripper", "finger")  # Joints of these names open a hand; the arm ends before them
 
 
 class GuessedChain(NamedTuple):
@@ -39,11 +38,8 @@ def is_xml(path: Path | str) -> bool:
 
 
 def root_of(path: str) -> ET.Element:
-    """The one <robot> of a URDF that does not contradict itself.
-
-    Raises:
-        InputError: it is no URDF, or contradicts itself; the joint or link is named.
-    """
+    """The one <robot> of a URDF that does not contradict itself. Raises InputError: it is no URDF, or contradicts
+    itself; the joint or link is named."""
     root = _parsed(path)
     if root.tag != "robot":
         raise InputError(path, "", f"<{root.tag}>", "a URDF is one <robot>", "Other formats must be converted first.")
@@ -78,10 +74,7 @@ def _no_xml(path: str, error: ET.ParseError) -> InputError:
 
 def _with_prefixes_bound(path: str, content: bytes, error: ET.ParseError) -> bytes:
     """Tags of other programs (<drake:...>) whose prefix nobody declared: URDF readers pass over them, and so do we.
-
-    Raises:
-        InputError: it is no XML for another reason, too.
-    """
+    Raises InputError: it is no XML for another reason, too."""
     prefixes = sorted(set(re.findall(rb"[<\s]([A-Za-z_][\w.-]*):[A-Za-z_]", content)) - {b"xmlns", b"xml"})
     bound = b"".join(b' xmlns:%b="%b"' % (prefix, prefix) for prefix in prefixes)
     mended = re.sub(rb"<robot\b", lambda found: found.group() + bound, content, count=1)

@@ -21,18 +21,12 @@ BASE = "base"
 
 
 class WrittenJoint(NamedTuple):
-    """A hinge of a chain.
-
-    Attributes:
-        name: its own.
-        placement: (4, 4) its frame in that of the joint before; it turns about z.
-        limits: (low, high) rad; None where it has none.
-        effort, speed: N m and rad/s, the most that its drive can.
-    """
+    """A hinge of a chain."""
 
     name: str
-    placement: Array
-    limits: tuple[float, float] | None
+    placement: Array  # (4, 4) its frame in that of the joint before; it turns about z
+    limits: tuple[float, float] | None  # (low, high) rad; None where it has none
+    # effort, speed: N m and rad/s, the most that its drive can
     effort: float = WRITTEN.effort
     speed: float = WRITTEN.speed
 

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from armscope.core.types import Array, Indices
-from armscope.swarm.neighbourhoods import NEIGHBOURHOODS
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
-from armscope.swarm.settings import SwarmSettings
+from armscope.swarm.settings import NEIGHBOURHOODS, SwarmSettings
 from armscope.swarm.streams import WEIGHT_UNIT, WeightStream
 from armscope.swarm.update import Coefficients, velocity_update
 

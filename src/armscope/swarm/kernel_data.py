@@ -1,4 +1,8 @@
-"""What the compiled swarm works on: the problems, the state of a pack of swarms, and where the results go."""
+"""What the compiled swarm works on: the problems, the state of a pack of swarms, and where the results go.
+
+These types stand in the index of numba's cache by the name of this module: a cache that was written before they moved
+could not be read.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +16,7 @@ from armscope.core.types import Array
 Integers = NDArray[np.int64]
 Words = NDArray[np.uint64]
 
-LANES = 16
-"""So many swarms are computed side by side."""
+LANES = 16  # So many swarms are computed side by side
 
 
 class Problems(NamedTuple):

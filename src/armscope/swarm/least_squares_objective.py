@@ -19,19 +19,12 @@ from armscope.core.types import Array, Indices
 
 @dataclass(frozen=True)
 class LeastSquares:
-    """S least-squares problems in D coefficients, as an objective: fitness = sqrt(|R z - b|^2 + rest).
+    """S least-squares problems in D coefficients, as an objective: fitness = sqrt(|R z - b|^2 + rest)."""
 
-    Attributes:
-        factors: the different upper triangular factors R / sqrt(N), M x D x D.
-        factor_of: which of them each swarm uses, S.
-        targets: b = Q'y / sqrt(N), S x D.
-        rests: the mean square that no coefficients can explain, S.
-    """
-
-    factors: Array
-    factor_of: Indices
-    targets: Array
-    rests: Array
+    factors: Array  # the different upper triangular factors R / sqrt(N), M x D x D
+    factor_of: Indices  # which of them each swarm uses, S
+    targets: Array  # b = Q'y / sqrt(N), S x D
+    rests: Array  # the mean square that no coefficients can explain, S
 
     def __post_init__(self) -> None:
         swarms, dimensions = self.targets.shape

@@ -21,22 +21,15 @@ class StopReason(Enum):
 
 @dataclass(frozen=True)
 class SwarmResult:
-    """The outcome of S swarms in D dimensions after at most T iterations; rows are swarms.
+    """The outcome of S swarms in D dimensions after at most T iterations; rows are swarms."""
 
-    Attributes:
-        positions: the best position found, S x D (NaN where no fitness was ever finite).
-        fitness: its fitness, S (inf where none was ever finite).
-        history: the best fitness after placing the particles and after each iteration, S x (T + 1); the last value is
-            repeated after a swarm stopped.
-        iterations: how many iterations each swarm used, S.
-        reasons: why each stopped, S of `StopReason`.
-    """
-
-    positions: NDArray[np.float64]
-    fitness: NDArray[np.float64]
+    positions: NDArray[np.float64]  # the best position found, S x D (NaN where no fitness was ever finite)
+    fitness: NDArray[np.float64]  # its fitness, S (inf where none was ever finite)
+    # the best fitness after placing the particles and after each iteration, S x (T + 1); the last value is repeated
+    # after a swarm stopped
     history: NDArray[np.float64]
-    iterations: NDArray[np.int64]
-    reasons: NDArray[np.object_]
+    iterations: NDArray[np.int64]  # how many iterations each swarm used, S
+    reasons: NDArray[np.object_]  # why each stopped, S of `StopReason`
 
     @staticmethod
     def joined(parts: Sequence[SwarmResult]) -> SwarmResult:

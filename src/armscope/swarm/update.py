@@ -67,11 +67,8 @@ def velocity_update(
 
 
 def clerc_constriction(cognitive: float, social: float) -> float:
-    """The constriction factor 2 / |2 - phi - sqrt(phi^2 - 4 phi)|, phi = c1 + c2 > 4 (Clerc & Kennedy 2002, Eq. 4.14).
-
-    Raises:
-        ValueError: phi is 4 or less; the factor is defined above it only.
-    """
+    """The constriction factor 2 / |2 - phi - sqrt(phi^2 - 4 phi)|, phi = c1 + c2 > 4 (Clerc & Kennedy 2002, Eq.
+    4.14). Raises ValueError: phi is 4 or less; the factor is defined above it only."""
     phi = cognitive + social
     if not phi > 4:
         raise ValueError(f"c1 + c2 = {phi!r}: Clerc's constriction factor needs a sum above 4")

@@ -27,19 +27,12 @@ ENTERED = (JOINT_OFFSET.name, LINK_GEOMETRY.name)
 
 @dataclass(frozen=True, eq=False)
 class Calibrated:
-    """Rows of a verdict once zeros and D-H rows are right and fitted.
+    """Rows of a verdict once zeros and D-H rows are right and fitted."""
 
-    Attributes:
-        ground: the rows; what geometry takes up, frames take up.
-        start: (n, 3) mm, with nothing else cured.
-        end: (n, 3) mm, with everything cured.
-        whole: (n, 3) mm, what the whole error is beside base and tool.
-    """
-
-    ground: Ground
-    start: Array
-    end: Array
-    whole: Array
+    ground: Ground  # the rows; what geometry takes up, frames take up
+    start: Array  # (n, 3) mm, with nothing else cured
+    end: Array  # (n, 3) mm, with everything cured
+    whole: Array  # (n, 3) mm, what the whole error is beside base and tool
 
     def share(self, moved: Array) -> float:
         """Of the squared error there, by a contribution (n, 3) at the tool."""

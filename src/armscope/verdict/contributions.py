@@ -56,23 +56,15 @@ class Repair:
 
 @dataclass(frozen=True, eq=False)
 class Contributions:
-    """Of n of the rows: their numbers, what is left (n, 3) mm, and what each cause adds to it.
+    """Of n of the rows: their numbers, what is left (n, 3) mm, and what each cause adds to it."""
 
-    Attributes:
-        rows: (n,) numbers of the rows, from 0.
-        left: (n, 3) with everything cured.
-        causes: the major ones, most important first.
-        smaller: minor effects, and major ones beyond `REPAIRS.major_apart`, together; None where there are none.
-        small: by family, (n, 3) of the small errors without a name.
-        single: each of those that are taken together in `smaller`.
-    """
-
-    rows: Indices
-    left: Array
-    causes: tuple[Repair, ...]
+    rows: Indices  # (n,) numbers of the rows, from 0
+    left: Array  # (n, 3) with everything cured
+    causes: tuple[Repair, ...]  # the major ones, most important first
+    # minor effects, and major ones beyond `REPAIRS.major_apart`, together; None where there are none
     smaller: Repair | None
-    small: dict[str, Array]
-    single: tuple[Repair, ...] = ()
+    small: dict[str, Array]  # by family, (n, 3) of the small errors without a name
+    single: tuple[Repair, ...] = ()  # each of those that are taken together in `smaller`
 
     @property
     def switches(self) -> list[tuple[str, Array]]:
@@ -102,19 +94,12 @@ class Contributions:
 
 @dataclass(frozen=True, eq=False)
 class Ground:
-    """Rows of a verdict on which contributions are calculated, with the whole fitted model in place.
-
-    Attributes:
-        verdict: the diagnosis.
-        rows: (n,) numbers of the rows, from 0.
-        posture: the arm there.
-        taken_up: (3 n, f) orthonormal: what frames take up.
-    """
+    """Rows of a verdict on which contributions are calculated, with the whole fitted model in place."""
 
     verdict: Diagnosis
-    rows: Indices
+    rows: Indices  # (n,) numbers of the rows, from 0
     posture: Posture
-    taken_up: Array
+    taken_up: Array  # (3 n, f) orthonormal: what frames take up
 
     def free(self, moved: Array) -> Array:
         """(n, 3) without what frames take up."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,15 +11,18 @@ import pandas as pd
 
 from armscope.core.rotations import turned_by
 from armscope.core.types import Array
+from armscope.core.words import enumerated
 from armscope.physics.effect import AXES
 from armscope.physics.geometric import JOINT_OFFSET, LINK_GEOMETRY
+from armscope.physics.linkage_words import BARS, OF_WHAT
 from armscope.physics.zero_shift import ZERO_SHIFT
-from armscope.robot import Arm
+from armscope.robot import Arm, controllers
+from armscope.robot.arm import build_arm
 from armscope.robot.urdf_writing import axes_told, origins_of_file, turns_of_file
 from armscope.verdict.constants import ORDER
 from armscope.verdict.diagnosis import Diagnosis
-from armscope.verdict.effects import INTERVAL, FoundEffect
-from armscope.verdict.entries import entry_decimals
+from armscope.verdict.effects import INTERVAL, FoundEffect, Parameter
+from armscope.verdict.entries import entry_decimals, length
 from armscope.verdict.untold import beyond_arms, untold
 
 NUMBERS = {
@@ -29,8 +32,7 @@ NUMBERS = {
 """Of a D-H row, as robot.yaml calls them: what an effect calls its error, and its name for people."""
 
 
-SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}
-"""What sets a zero, and the parameter by which."""
+SETS_A_ZERO = {JOINT_OFFSET.name: "offset", ZERO_SHIFT.name: "jump"}  # What sets a zero, and the parameter by which
 
 
 def zero_offsets(verdict: Diagnosis) -> pd.DataFrame:
@@ -92,14 +94,8 @@ def wrongly_stated(verdict: Diagnosis) -> bool:
 
 
 def corrected_rows(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The D-H rows as stated and as found, mm and degrees, without the zeros.
-
-    Args:
-        verdict: of the arm.
-
-    Returns:
-        A line per row; None for an arm that has no D-H rows, or is wrongly stated.
-    """
+    """The D-H rows as stated and as found, mm and degrees, without the zeros. Returns a line per row; None for an
+    arm that has no D-H rows, or is wrongly stated."""
     dh = verdict.model.arm.description.dh
     if dh is None or wrongly_stated(verdict):
         return None
@@ -136,9 +132,6 @@ def corrected_table(verdict: Diagnosis) -> tuple[list[str], list[list[CorrectedC
 
     What is corrected has its interval beside it and as many decimals as that leaves.
 
-    Args:
-        verdict: of the arm.
-
     Returns:
         The heads of the columns, the row's number first, and the rows; both empty where there are none.
     """
@@ -168,14 +161,8 @@ def _corrected(row: Mapping[Any, Any], name: str, verdict: Diagnosis) -> Correct
 
 
 def corrected_origins(verdict: Diagnosis) -> pd.DataFrame | None:
-    """The origins of the chain's joints in the URDF as stated and as found, without the zeros.
-
-    Args:
-        verdict: of the arm.
-
-    Returns:
-        A line per joint; None for D-H rows, or an arm that is wrongly stated.
-    """
+    """The origins of the chain's joints in the URDF as stated and as found, without the zeros. Returns a line per
+    joint; None for D-H rows, or an arm that is wrongly stated."""
     arm = verdict.model.arm
     if arm.description.dh is not None or wrongly_stated(verdict):
         return None
@@ -220,3 +207,47 @@ def place_and_angles(origin: Array) -> tuple[Array, Array]:
 
     angles = Rotation.from_matrix(origin[:3, :3]).as_euler("xyz", suppress_warnings=True)
     return origin[:3, 3] + 0.0, angles + 0.0  # no minus before a zero
+
+
+def corrected_ur_kinematics(verdict: Diagnosis) -> dict[str, Any] | None:
+    """`armscope.robot.controllers.ur_kinematics` of an arm whose rows and zeros are put right.
+
+    None where nothing is: a file of the nominal arm would undo what the maker calibrated.
+    """
+    arm = verdict.model.arm
+    rows, zeros = corrected_rows(verdict), zero_offsets(verdict)["actual_minus_commanded_deg"]
+    if rows is None or arm.description.dh is None or not (changes(rows) or zeros.any()):
+        return None
+    rows = rows.assign(corrected_theta_offset_deg=rows["corrected_theta_offset_deg"] + zeros)
+    joints = [
+        row.model_copy(update={name: float(rows[f"corrected_{name}"].iloc[j]) for name in NUMBERS})
+        for j, row in enumerate(arm.description.dh.joints)
+    ]
+    dh = arm.description.dh.model_copy(update={"joints": joints})
+    return controllers.ur_kinematics(build_arm(arm.description.model_copy(update={"dh": dh})))
+
+
+ALL_OF_THEM = "both before anything is measured: one without the other can make it worse"
+NOT_SURE = "no bar is surely off (each interval holds zero), so change none before it was measured"
+PPM = 1e6
+
+
+def bars_set_right(parameters: Sequence[Parameter]) -> str:
+    """How each bar that is off is changed; one whose interval holds zero is left as it is. ``parameters``: of the
+    parallelogram: the errors of its bars, lengths or shares of the rocker's."""
+    bars = sorted((p for p in parameters if p.name in BARS), key=lambda p: BARS.index(p.name))
+    if not bars:
+        return "–"
+    off = [p for p in bars if abs(p.value) > INTERVAL * p.stderr]
+    if not off:
+        return NOT_SURE
+    changes = [f"make the {p.name} {'shorter' if p.value > 0 else 'longer'} by {_by_how_much(p)}" for p in off]
+    kept = [f"leave the {p.name} as it is (its error may be none)" for p in bars if p not in off]
+    return "; ".join([enumerated(changes), *([ALL_OF_THEM] if len(off) > 1 else []), *kept])
+
+
+def _by_how_much(bar: Parameter) -> str:
+    if bar.unit == "mm":
+        return length(abs(bar.value), bar.stderr).removeprefix("+")
+    half = f" (± {PPM * INTERVAL * bar.stderr:.0f})" if bar.stderr > 0 else ""
+    return f"{PPM * abs(bar.value):.0f} ppm{half} {OF_WHAT}"

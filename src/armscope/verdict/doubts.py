@@ -10,11 +10,10 @@ from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Alternative, FoundEffect
 from armscope.verdict.family_cures import CONFIRM_FIRST
 from armscope.verdict.sentences import exact_phrase
-from armscope.verdict.unsettled import kind_and_place
+from armscope.verdict.told_causes import kind_and_place
 from armscope.verdict.wording import effect_in_words, plain
 
-OPEN = "to be settled"
-"""What is changed about a cause that is not settled: nothing yet."""
+OPEN = "to be settled"  # What is changed about a cause that is not settled: nothing yet
 MEANWHILE = "Until then change nothing for it: commands by the whole model (armscope compensate) hold whichever it is."
 MAY_BE_READ_SO = (
     "Until then change nothing for it, and take no commands from the model (armscope compensate): this may be the "
@@ -27,33 +26,21 @@ NOT_THE_ARMS = ("instrument", "drift")
 
 @dataclass(frozen=True)
 class Doubt:
-    """A cause that is not settled, as a work order tells it.
+    """A cause that is not settled, as a work order tells it."""
 
-    Attributes:
-        what, place: kind and region, no more.
-        confirm: how each reading shows itself.
-        instruction: what comes before the cure of the best reading.
-        meanwhile: what to do until then: commands by the whole model hold whichever of the arm's own causes it is, but
-            not where one is none of the arm's.
-    """
-
+    # what, place: kind and region, no more
     what: str
     place: str
-    confirm: str
-    instruction: str
+    confirm: str  # how each reading shows itself
+    instruction: str  # what comes before the cure of the best reading
+    # what to do until then: commands by the whole model hold whichever of the arm's own causes it is, but not where one
+    # is none of the arm's
     meanwhile: str
 
 
 def doubt_of(effect: FoundEffect, asked: bool = False) -> Doubt | None:
-    """The doubt about a cause; None where its name is sure.
-
-    Args:
-        effect: found.
-        asked: whether further measurements that the verdict asks for settle it.
-
-    Returns:
-        What to say in place of the name.
-    """
+    """The doubt about a cause; None where its name is sure. ``asked``: whether further measurements that the verdict
+    asks for settle it."""
     if effect.named_as == "effect" or effect.same_cure:
         return None
     rivals = _rivals(effect)

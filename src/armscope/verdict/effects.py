@@ -17,14 +17,10 @@ from armscope.verdict.constants import WORDS
 
 Specific = Literal["effect", "region", "family"]
 CauseLevel = Literal["effect", "place", "family"]
-INDISTINGUISHABLE_NATS = 3.0
-"""Evidence of 20 to 1: two readings closer than this are not told apart."""
-INTERVAL = 1.959964
-"""Half width of a 95 % interval in standard errors."""
-NO_SIZE = ("phase", "direction", "per_turn", "time", "row")
-"""Parameters that say where or when, not how much."""
-UNKNOWN = "unknown"
-"""The family of what no known physics explains."""
+INDISTINGUISHABLE_NATS = 3.0  # Evidence of 20 to 1: two readings closer than this are not told apart
+INTERVAL = 1.959964  # Half width of a 95 % interval in standard errors
+NO_SIZE = ("phase", "direction", "per_turn", "time", "row")  # Parameters that say where or when, not how much
+UNKNOWN = "unknown"  # The family of what no known physics explains
 
 
 @told_in_files(frozen=True)

@@ -18,10 +18,8 @@ from armscope.verdict.doubts import OPEN
 from armscope.verdict.tasks import Task
 from armscope.verdict.wording import places_in_words
 
-Job = tuple[Task, Array]
-"""A task, and what the tool moves by what it cures."""
-CALIBRATION = "calibration"
-"""What is changed where zeros and rows are fitted afresh, to new measurements."""
+Job = tuple[Task, Array]  # A task, and what the tool moves by what it cures
+CALIBRATION = "calibration"  # What is changed where zeros and rows are fitted afresh, to new measurements
 CALIBRATED_LAST = "In this order, and with what comes first already done when the arm is measured for the calibration."
 TOGETHER = "Enter all of these before anything is measured or moved by them; one without the others makes it worse."
 
@@ -86,11 +84,7 @@ def calibrated_last(jobs: Sequence[Job], before: Array) -> list[Job]:
     that wobbles, a bar) is mended at the arm, as a step of its own before it, if that alone pays.
 
     Args:
-        jobs: tasks in their turn.
         before: (n, 3) mm, the error with none of them done.
-
-    Returns:
-        The tasks, some in one.
     """
     at = next((n for n, (task, _) in enumerate(jobs) if task.change == CALIBRATION), len(jobs))
     after = [job for job in jobs[at + 1 :] if _can_be_done_before(job[0])]

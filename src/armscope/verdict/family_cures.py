@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from armscope.core.words import size_of
 from armscope.physics.backgrounds import GEOMETRIC, THERMAL
-from armscope.physics.thermal import BY_MODEL, KEPT_WARM
+from armscope.physics.effect import Part
+from armscope.physics.thermal import BY_MODEL, KEPT_WARM, THERMAL_EXPANSION
 from armscope.physics.unexplained_turn import ELSEWHERE
 from armscope.physics.zero_shift import ZERO_SHIFT
 from armscope.verdict.calibrated import mended_by_calibration
@@ -84,7 +88,7 @@ def cure_of_family(
         members: its effects.
         everywhere: whether small errors of the family in the whole arm belong to it.
         worst: where these do most; "" where nowhere stands out.
-        growth: by how much all links grow with temperature, as a formula (`armscope.verdict.growth`); "" for not.
+        growth: by how much all links grow with temperature, as a formula (`armscope.verdict.family_cures`); "" for not.
 
     Returns:
         A sentence or two.
@@ -103,3 +107,40 @@ def cure_of_family(
     together = mended_together(members[0]) if members else family
     mend = _CURES.get(together, " ".join(dict.fromkeys(each.cure for each in members)))
     return f"{mend} {OVER_TIME}" if any(each.nameless and each.driver == "time" for each in members) else mend
+
+
+WHOLE_ARM = "arm"
+
+
+def growth_in_words(background: Sequence[Part]) -> str:
+    """The formula by which all links of an arm are scaled: one number for all, weighed by their lengths. Returns a
+    sentence or two; "" where the links do not grow."""
+    grown = _by_link(background)
+    if not grown:
+        return ""
+    coefficients, lengths = np.array(list(grown.values())).T
+    mean = float(np.average(coefficients, weights=lengths))
+    told = f"length = stated length x (1 + coefficient x (temperature - 20 C)). Here coefficient = {_told(mean)}"
+    lowest, highest = float(coefficients.min()), float(coefficients.max())
+    apart = _told(lowest) != _told(highest)
+    return f"{told}, the mean by length (link by link {_told(lowest)} to {_told(highest)})." if apart else f"{told}."
+
+
+def _by_link(background: Sequence[Part]) -> dict[str, tuple[float, float]]:
+    """By link what it grows by, 1/K, as one of all and by itself, and its length, m."""
+    growing = [part for part in background if part.placed.effect is THERMAL_EXPANSION]
+    if not any(part.values.any() for part in growing):
+        return {}
+    alike = sum(float(part.values[0]) for part in growing if part.placed.location == WHOLE_ARM)
+    return {
+        part.placed.location: (
+            alike + float(part.values[0]),
+            sum(abs(product.factor) for product in part.placed.terms[0].products),
+        )
+        for part in growing
+        if part.placed.location != WHOLE_ARM
+    }
+
+
+def _told(coefficient: float) -> str:
+    return size_of(coefficient, "1/K", sign=coefficient < 0)

@@ -23,19 +23,12 @@ import numpy as np
 from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.physics.backgrounds import GEOMETRIC
-from armscope.verdict.calibrated import (
-    mended_by_calibration,
-    once_calibrated,
-    share_beside_its_like,
-    stands_out,
-)
+from armscope.verdict.calibrated import mended_by_calibration, once_calibrated, share_beside_its_like, stands_out
 from armscope.verdict.constants import REPAIRS, WORDS
 from armscope.verdict.contributions import Contributions, ground_of, parts_of
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.family_cures import cure_of_family
-from armscope.verdict.growth import growth_in_words
-from armscope.verdict.promise import promised
+from armscope.verdict.family_cures import cure_of_family, growth_in_words
 from armscope.verdict.schema import Background, Verdict
 from armscope.verdict.sentences import cause_in_words, headline
 
@@ -50,10 +43,6 @@ def as_it_is(found: FoundEffect, background: Sequence[Background]) -> FoundEffec
 
 def with_importance(draft: Diagnosis, weigh: Weigh = as_it_is) -> Diagnosis:
     """A diagnosis whose effects, small errors and causes have shares, stand in their order, and are told in words.
-
-    Args:
-        draft: with effects, backgrounds and causes in any order.
-        weigh: which shares are small.
 
     Returns:
         The same with `share` everywhere, the largest first, `minor` where an effect is not worth its place, and the

@@ -8,8 +8,7 @@ from armscope.robot import Arm
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.schema import Notice, Verdict
 
-KIND = "payload's place"
-"""Of the notice that `armscope.check.preconditions` gives."""
+KIND = "payload's place"  # Of the notice that `armscope.check.preconditions` gives
 TOOL_FIRST = (
     "First state tool_mm in the robot's file, where the load hangs (armscope check tells where the points put the "
     "tool), and diagnose again: without it each payload counts as sitting in the last frame's origin, and what looks "

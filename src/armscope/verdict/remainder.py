@@ -5,8 +5,7 @@ from __future__ import annotations
 from armscope.verdict.schema import NOISE_EXCEEDED, Unexplained, Verdict
 from armscope.verdict.wording import millimetres
 
-ABOVE_NOISE = "residual above "
-"""How what is left is described where all that is known of it is what noise it exceeds."""
+ABOVE_NOISE = "residual above "  # How what is left is described where all that is known of it is what noise it exceeds
 
 
 def still_open(verdict: Verdict) -> str:

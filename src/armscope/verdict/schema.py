@@ -13,21 +13,17 @@ from armscope.core.types import Number
 from armscope.verdict.effects import Cause, FoundEffect
 
 Answer = Literal["nothing missing", "explained", "partly explained", "cannot tell"]
-ANOTHER_MODEL = "another model"
-"""The kind of a notice that an arm of the library fits clearly better."""
+ANOTHER_MODEL = "another model"  # The kind of a notice that an arm of the library fits clearly better
 TOOL_AS_STATED = "tool as stated"
 """The kind of a notice that a tool point is as stated, since poses do not tell it from the base."""
-TOOL_EXCHANGED = "tool exchanged"
-"""The kind of a notice that the tool lies elsewhere from run to run."""
-ROWS_LEFT_OUT = "rows left out"
-"""The kind of a notice that many rows fit none of what was found."""
+TOOL_EXCHANGED = "tool exchanged"  # The kind of a notice that the tool lies elsewhere from run to run
+ROWS_LEFT_OUT = "rows left out"  # The kind of a notice that many rows fit none of what was found
 NOISE_EXCEEDED = "noise exceeded"
 """The kind of a notice that what remains is above the stated noise and follows nothing: that may be too small."""
 NO_BAD_SHOTS = "rows that are no bad shots"
 """The same where they are too many to be bad shots: what is promised is then promised with them."""
 
-MISLABELLED = "targets"
-"""The kind of a notice that rows fit another target than the one whose name they carry."""
+MISLABELLED = "targets"  # The kind of a notice that rows fit another target than the one whose name they carry
 
 
 @dataclass(frozen=True)

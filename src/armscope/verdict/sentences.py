@@ -11,14 +11,12 @@ from armscope.physics.compliance_change import COMPLIANCE_CHANGE
 from armscope.physics.elastic import JOINT_COMPLIANCE
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised
 from armscope.verdict.effects import Cause, FoundEffect
 from armscope.verdict.family_cures import warms
-from armscope.verdict.promise import promised
 from armscope.verdict.remainder import above_what, asked_of_noise, still_open
 from armscope.verdict.schema import ANOTHER_MODEL, NO_BAD_SHOTS, ROWS_LEFT_OUT, Background, Verdict
-from armscope.verdict.told_causes import MOST_OF_ALL, WORST, is_spread, told_and_rest, with_share
-from armscope.verdict.unsettled import vague
+from armscope.verdict.told_causes import MOST_OF_ALL, WORST, is_spread, told_and_rest, vague, with_share
 from armscope.verdict.untold import beyond_arms, untold
 from armscope.verdict.wording import (
     BESIDE,

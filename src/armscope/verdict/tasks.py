@@ -17,10 +17,9 @@ from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.physics.registry import effect_named
 from armscope.physics.scene import Scene
 from armscope.robot import Arm
-from armscope.verdict.bars import bars_set_right
 from armscope.verdict.constants import ORDER
 from armscope.verdict.contributions import Repair
-from armscope.verdict.corrections import corrected_origin, place_and_angles
+from armscope.verdict.corrections import bars_set_right, corrected_origin, place_and_angles
 from armscope.verdict.doubts import OPEN, Doubt, alike_in_words, doubt_of, unless_confirmed
 from armscope.verdict.effects import FoundEffect, Parameter
 from armscope.verdict.entries import angle, length
@@ -31,50 +30,35 @@ from armscope.verdict.sentences import exact_phrase, phrase
 from armscope.verdict.untold import untold
 from armscope.verdict.wording import capitalised, half_interval, read_parameter
 
-FIND_OUT = "to be found out"
-"""What is changed about what scatters: nothing before it is known what it follows."""
+FIND_OUT = "to be found out"  # What is changed about what scatters: nothing before it is known what it follows
 
 
 @dataclass(frozen=True)
 class Task:
-    """One line of a work order, in words.
+    """One line of a work order, in words."""
 
-    Attributes:
-        what: who does what, by how much.
-        place, change: where, and what is changed there, in two words.
-        motion: how far and which way it goes in these recordings: mm, mrad and degrees, with signs.
-        instruction, cure: what to do; and the rule by which it is commanded away.
-        confirm: how to confirm it first.
-        unless: what it could be if that does not confirm it; "" where nothing else is left.
-        alike: what it may be as well without any other cure; "" where there is nothing such.
-        alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured.
-        only_after: it pays only once all before it is done: alone it would make the error larger.
-        instead: it stands in place of all before it, and holds them.
-        members: "effect at location" of what it cures; none for what is everywhere.
-        family: of what it cures.
-        requires: the family without whose correction it does nothing: a payload's data act through what gives way.
-        needs: what has to be done first for that, in words.
-        beside_scatter: why its joint scatters is to be settled first.
-    """
-
-    what: str
+    what: str  # who does what, by how much
+    # place, change: where, and what is changed there, in two words
     place: str
     change: str
-    motion: str
+    motion: str  # how far and which way it goes in these recordings: mm, mrad and degrees, with signs
+    # instruction, cure: what to do; and the rule by which it is commanded away
     instruction: str
     cure: str
-    confirm: str
-    unless: str = ""
-    alike: str = ""
+    confirm: str  # how to confirm it first
+    unless: str = ""  # what it could be if that does not confirm it; "" where nothing else is left
+    alike: str = ""  # what it may be as well without any other cure; "" where there is nothing such
+    # alone_mm, then_mm: RMS per axis on the recorded rows once this alone, or this and all before it, is cured
     alone_mm: float = math.nan
     then_mm: float = math.nan
-    only_after: bool = False
-    instead: bool = False
-    members: tuple[str, ...] = ()
-    family: str = ""
+    only_after: bool = False  # it pays only once all before it is done: alone it would make the error larger
+    instead: bool = False  # it stands in place of all before it, and holds them
+    members: tuple[str, ...] = ()  # "effect at location" of what it cures; none for what is everywhere
+    family: str = ""  # of what it cures
+    # the family without whose correction it does nothing: a payload's data act through what gives way
     requires: str = ""
-    needs: str = ""
-    beside_scatter: bool = False
+    needs: str = ""  # what has to be done first for that, in words
+    beside_scatter: bool = False  # why its joint scatters is to be settled first
 
     def headed(self, between: str) -> str:
         """Where and what is changed there, apart by ``between``; once where one says the other ("payload data")."""
@@ -156,7 +140,6 @@ def task_of(scene: Scene, cause: Repair, effect: FoundEffect, asked: bool = Fals
 
 
 def _in_doubt(task: Task, doubt: Doubt) -> Task:
-    """A task whose cause is to be settled first: its best reading is told as a condition, and names no part before."""
     return replace(
         task,
         what=capitalised(doubt.what),

@@ -1,4 +1,4 @@
-"""Which causes a headline tells, in which order, and each with its shares."""
+"""Which causes a headline tells, in which order, each with its shares, and an unsettled one as a clause."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from armscope.verdict.calibrated import stands_out
 from armscope.verdict.constants import WORDS
 from armscope.verdict.effects import Cause, FoundEffect
-from armscope.verdict.wording import SPREAD, percent
+from armscope.verdict.wording import SPREAD, effect_in_words, percent, plain
 
 WORST = ", most at "
 MOST_OF_ALL = ", most of all: "
@@ -63,3 +63,30 @@ def told_and_rest(causes: Sequence[Cause]) -> tuple[list[Cause], list[Cause]]:
 def is_spread(cause: Cause) -> bool:
     """Whether a cause is small errors in the whole arm of which none stands out."""
     return cause.everywhere and cause.text.partition(WORST)[0] == SPREAD.get(cause.family)
+
+
+def vague(effect: FoundEffect) -> str:
+    """A region or a family, with the best single reading."""
+    if " or " in effect.title:
+        return kind_and_place(effect)
+    open_size = ", of a size that these rows do not determine" if effect.size_open else ""
+    return f"{kind_and_place(effect)}, most likely {effect_in_words(effect.effect, effect.location)}{open_size}"
+
+
+def kind_and_place(effect: FoundEffect) -> str:
+    """What an unsettled cause is for sure, as a clause: one of two, or a kind of error in a region."""
+    if " or " in effect.title:
+        return f"either {plain(effect.title)}"
+    if effect.location == "payload":
+        return "the payload may not be as stated"
+    kinds = {
+        "elastic": "something gives way under load",
+        "instrument": "something is measured wrong",
+        "geometric": "the geometry differs from what was stated",
+        "transmission": "a drive does not turn as commanded",
+        "thermal": "something grows with temperature",
+        "drift": "something moves during the recording",
+        "unknown": "something follows no known physics",
+    }
+    _, _, where = effect.title.partition(", ")
+    return f"{kinds.get(effect.family, f'something {effect.family}')} {where or 'in the arm'}"

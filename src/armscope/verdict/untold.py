@@ -12,8 +12,7 @@ IMPLAUSIBLE = {"mm": 15.0, "rad": 0.1, "rad/rad": 0.05, "m/m": 2e-3, "1/K": 1e-4
 made to a few tenths of a mm, mastering is good to a few mrad, steel and aluminium grow by 12 and 24 millionths per K
 (ISO 230-1 and makers' data sheets); the bounds lie several times beyond. Such a value stands in for another one."""
 ABOUT_THE_ARM = ("geometric", "transmission", "thermal", "instrument")
-MM_AT_THE_TOOL = {"mm": 1.0, "rad": 1e3}
-"""An angle acts at about a metre."""
+MM_AT_THE_TOOL = {"mm": 1.0, "rad": 1e3}  # An angle acts at about a metre
 
 
 def untold(parameter: Parameter, effect: FoundEffect) -> bool:

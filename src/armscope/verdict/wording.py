@@ -8,11 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.numerals import shown_unit
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, rounded, shown_unit
 from armscope.physics.registry import effect_named
 from armscope.verdict.constants import WORDS
-from armscope.verdict.counting import odds_in_words, with_prefix
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect, Parameter
 
 LABELS = {
@@ -265,3 +263,23 @@ def main_and_minor(effects: Sequence[FoundEffect]) -> tuple[list[FoundEffect], l
     """The effects of the story and those worth little, the largest share first."""
     ordered = sorted(effects, key=lambda effect: -effect.share)
     return [e for e in ordered if not e.minor], [e for e in ordered if e.minor]
+
+
+def times(factor: float) -> str:
+    """A factor before the word "times"; one beyond counting says that alone: what is left then is noise."""
+    return "more than a thousand" if factor > WORDS.countable_times else rounded(factor)
+
+
+def odds_in_words(nats: float) -> str:
+    """Odds as a number to 1, of two digits; of what is beyond all doubt its size alone."""
+    if nats >= WORDS.countable_odds:
+        return "far beyond a thousand to 1"
+    return f"{float(f'{math.exp(nats):.2g}'):.0f} to 1"
+
+
+def with_prefix(value: float, unit: str) -> str:
+    """Three significant digits and k, M or G before the unit."""
+    for size, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= size:
+            return f"{value / size:.3g} {prefix}{unit}"
+    return f"{value:.3g} {unit}"

@@ -24,8 +24,7 @@ from armscope.verdict.entered_together import (
     moved_by,
     pays_together,
 )
-from armscope.verdict.family_cures import cure_of_family, warms
-from armscope.verdict.growth import growth_in_words
+from armscope.verdict.family_cures import cure_of_family, growth_in_words, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
 from armscope.verdict.scatter_steps import beside_scatter, finding_out
@@ -57,19 +56,14 @@ DOES_NOTHING = "by itself it changes nothing: payload data act only where what g
 
 @dataclass(frozen=True)
 class WorkOrder:
-    """What to do, and what was found besides.
+    """What to do, and what was found besides."""
 
-    Attributes:
-        tasks: in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays
-            only after that (minor effects, too, where it is much), what pays only together as one step, and corrected
-            commands for what is left.
-        besides: in words, causes that leave the error as it is in their turn, and what to do about them.
-        instrument_first: whether the instrument is to be settled before commands are corrected.
-    """
-
+    # in the order in which they pay: repairs, then what takes out small errors everywhere, then what pays only after
+    # that (minor effects, too, where it is much), what pays only together as one step, and corrected commands for what
+    # is left
     tasks: tuple[Task, ...]
-    besides: tuple[str, ...]
-    instrument_first: bool = False
+    besides: tuple[str, ...]  # in words, causes that leave the error as it is in their turn, and what to do about them
+    instrument_first: bool = False  # whether the instrument is to be settled before commands are corrected
 
     @property
     def caution(self) -> str:

@@ -28,8 +28,7 @@ LATER_KINDS = (
 )  # fmt: skip
 """What the vocabulary has gained: at the end, so that all other worlds keep their numbers and their seeds."""
 FIRST_KINDS = [kind for kind in LIBRARY if kind.name not in LATER_KINDS]
-CAUSES = (3.0, 10.0)
-"""Sizes of what stands out of a rough arm, in noise of a single reading."""
+CAUSES = (3.0, 10.0)  # Sizes of what stands out of a rough arm, in noise of a single reading
 COMMON_KINDS = (
     "joint_compliance", "joint_compliance", "joint_offset", "joint_offset", "link_geometry", "link_geometry",
     "gear_eccentricity", "gear_eccentricity", "backlash", "bearing_compliance", "gear_ratio", "thermal_expansion",

@@ -17,8 +17,7 @@ from armscope.world.strength import Sized, carried, sized
 
 LARGEST_FACTOR = 15.0
 """An effect sits where no more than this multiple of its natural size is needed, if there is such a place."""
-LEAST_LEFT = 0.05
-"""Share of an effect's squared size that the effects already chosen must leave to see."""
+LEAST_LEFT = 0.05  # Share of an effect's squared size that the effects already chosen must leave to see
 STANDS_OUT, ABOVE_LARGEST = 2.5, 1.5
 """A cause is at least so many times as large at the tool as what is rough everywhere usually, and at most, is of its
 kind; errors of D-H rows and zeros are one kind."""

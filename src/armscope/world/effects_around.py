@@ -92,11 +92,7 @@ def weight_along_tool(scene: Scene) -> Array:
 
 def lower_side(pull: Array, least: float) -> Array:
     """(N, 3) where something lies that slides about, by one at most; in the middle where that is nearly level.
-
-    Args:
-        pull: (N, 3) what of its weight pulls in the directions in which it slides.
-        least: from which it slides.
-    """
+    ``pull``: (N, 3) what of its weight pulls in the directions in which it slides."""
     steep = np.linalg.norm(pull, axis=1, keepdims=True)
     return np.where(steep > least, pull / np.maximum(steep, least), 0.0)
 

@@ -176,10 +176,7 @@ def _seen_beside(arm: VirtualArm) -> dict[int, Visibility]:
 def _roughness(arm: VirtualArm, measured: Measured, columns: list[str], oracle: Oracle) -> dict[str, Any]:
     """What is rough, what naming it isn't wrong, what frames and D-H values leave, and what an oracle on test rows."""
     placed = arm.frames.place(arm.nominal, arm.scene.tool_turn)[arm.recorded]
-    free = np.concatenate(
-        [arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in D_H_VALUES)],
-        axis=1,
-    )
+    free = np.concatenate([arm.judge.frames, *(r.columns for r in arm.judge.rivals if r.effect in D_H_VALUES)], axis=1)
     missing = (measured.readings[arm.recorded] - placed).reshape(-1)
     left = missing - free @ np.linalg.lstsq(free, missing, rcond=1e-9)[0]
     return {

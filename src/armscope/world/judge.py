@@ -13,12 +13,9 @@ from armscope.world.kinds import Scene
 from armscope.world.rivals import rivals
 from armscope.world.strength import Sized, free_frames
 
-ALTERNATIVE_NATS = 5.0
-"""A rival whose evidence falls short by less than this is an acceptable answer."""
-D_H_VALUES = ("joint_offset", "link_geometry")
-"""Rivals that a geometric calibration fits."""
-CURVE_COLUMNS = 3
-"""Columns charged for a free curve that stands for an effect outside the library."""
+ALTERNATIVE_NATS = 5.0  # A rival whose evidence falls short by less than this is an acceptable answer
+D_H_VALUES = ("joint_offset", "link_geometry")  # Rivals that a geometric calibration fits
+CURVE_COLUMNS = 3  # Columns charged for a free curve that stands for an effect outside the library
 
 
 @dataclass(frozen=True)
@@ -32,18 +29,13 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Visibility:
-    """What is known about finding one effect among all that a world conceals.
+    """What is known about finding one effect among all that a world conceals."""
 
-    Attributes:
-        noncentrality: squared size of its displacement, in noise units, that frames and the other effects don't take.
-        columns: how many numbers an oracle that knows what to test would fit.
-        frame_numbers: how many the free frames have: six per base, three of the tool point.
-        alternatives: the answers that are as good, best first; none where there is nothing to see.
-    """
-
+    # squared size of its displacement, in noise units, that frames and the other effects don't take
     noncentrality: float
-    columns: int
-    frame_numbers: int
+    columns: int  # how many numbers an oracle that knows what to test would fit
+    frame_numbers: int  # how many the free frames have: six per base, three of the tool point
+    # the answers that are as good, best first; none where there is nothing to see
     alternatives: tuple[Alternative, ...]
 
 

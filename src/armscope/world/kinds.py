@@ -14,8 +14,7 @@ from armscope.world.layout import Geometry
 from armscope.world.statics import Hidden, Session
 
 Values = Mapping[str, float]
-LEAST_TORQUE = 0.02
-"""Share of the arm's largest torque below which a joint counts as unloaded."""
+LEAST_TORQUE = 0.02  # Share of the arm's largest torque below which a joint counts as unloaded
 
 ANGLE, LOAD, APPROACH = "joint angle", "gravity load", "side of approach"
 TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", "speed", "constant"
@@ -23,22 +22,14 @@ TEMPERATURE, TIME, PAYLOAD, SPEED, CONSTANT = "temperature", "time", "payload", 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """The nominal arm in a session, before anything is concealed.
-
-    Attributes:
-        description, geometry: the arm.
-        session: N rows.
-        torque: (N, m) gravity's torque on each motor of the rigid arm, N m.
-        torque_scale: (m,) its largest size in the whole session, N m.
-        tool_turn: (N, 3, 3) orientation of the last frame in the base frame.
-    """
+    """The nominal arm in a session, before anything is concealed."""
 
     description: RobotDescription
     geometry: Geometry
     session: Session
-    torque: Array
-    torque_scale: Array
-    tool_turn: Array
+    torque: Array  # (N, m) gravity's torque on each motor of the rigid arm, N m
+    torque_scale: Array  # (m,) its largest size in the whole session, N m
+    tool_turn: Array  # (N, 3, 3) orientation of the last frame in the base frame
 
     def chain_angles(self) -> Array:
         """(N, n) commanded angles of the chain's joints, rad."""
@@ -61,18 +52,13 @@ class Scene:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of an effect, in the unit that truth.yaml states.
+    """A number of an effect, in the unit that truth.yaml states."""
 
-    Attributes:
-        name, unit: as in truth.yaml.
-        si: what one unit is in SI (mm: 1e-3).
-        scales: whether the effect's size is proportional to it.
-    """
-
+    # name, unit: as in truth.yaml
     name: str
     unit: str
-    si: float = 1.0
-    scales: bool = True
+    si: float = 1.0  # what one unit is in SI (mm: 1e-3)
+    scales: bool = True  # whether the effect's size is proportional to it
 
 
 Draw = Callable[[np.random.Generator, Scene, str], dict[str, float]]
@@ -81,33 +67,19 @@ Hide = Callable[[Hidden, Scene, str, Values], None]
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of effect.
+    """A kind of effect."""
 
-    Attributes:
-        effect: its name in the vocabulary; `unknown` outside the library.
-        variant: tells kinds of one name apart ("" if there is one only).
-        driver: what it follows.
-        parameters: its numbers, in order.
-        needs: columns of recordings.csv without which nobody can see what drives it.
-        places: where in an arm it can sit.
-        draw: its numbers at some natural size, in SI units, at random.
-        hide: builds it into a mechanism, numbers in SI units.
-        unloaded: an effect of load that is there whether or not gravity turns the joint's motor.
-        arm: the only one of the proof's arms that has such a place; "" where all have one.
-        sentence: what it is, for whoever opens the seal.
-    """
-
-    effect: str
-    variant: str
+    effect: str  # its name in the vocabulary; `unknown` outside the library
+    variant: str  # tells kinds of one name apart ("" if there is one only)
     driver: str
-    parameters: tuple[Parameter, ...]
-    needs: tuple[str, ...]
-    places: Callable[[RobotDescription], list[str]]
-    draw: Draw
-    hide: Hide
-    sentence: str = ""
-    unloaded: bool = False
-    arm: str = ""
+    parameters: tuple[Parameter, ...]  # its numbers, in order
+    needs: tuple[str, ...]  # columns of recordings.csv without which nobody can see what drives it
+    places: Callable[[RobotDescription], list[str]]  # where in an arm it can sit
+    draw: Draw  # its numbers at some natural size, in SI units, at random
+    hide: Hide  # builds it into a mechanism, numbers in SI units
+    sentence: str = ""  # what it is, for whoever opens the seal
+    unloaded: bool = False  # an effect of load that is there whether or not gravity turns the joint's motor
+    arm: str = ""  # the only one of the proof's arms that has such a place; "" where all have one
 
     @property
     def name(self) -> str:

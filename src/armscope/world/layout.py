@@ -13,8 +13,7 @@ from armscope.robot.description import LinkMass, RobotDescription
 SEGMENTS = 8
 """Segments of a bending link: the tip's deflection under an end load is 1 / (4 SEGMENTS^2) = 0.4 % below the beam's."""
 BASE_FREEDOMS = ("base x", "base y", "base z", "base rx", "base ry", "base rz")
-TARGET_FREEDOMS = ("target x", "target y", "target z")
-"""Slides of the measured point along the last frame's axes."""
+TARGET_FREEDOMS = ("target x", "target y", "target z")  # Slides of the measured point along the last frame's axes
 PEDESTAL = ("pedestal u", "pedestal v")
 """Hinges under the arm, level and square to each other, turned about z against the base's axes."""
 
@@ -29,27 +28,20 @@ class Frame:
 
 @dataclass(frozen=True)
 class Layout:
-    """What a mechanism is made of besides the nominal arm.
+    """What a mechanism is made of besides the nominal arm."""
 
-    Attributes:
-        row_errors: (n, 4) added to a (m), alpha (rad), d (m), theta (rad) of the D-H rows.
-        tool_error: (3,) added to the tool point, m.
-        payload_offset: (3,) from the tool point to the payload's centre of mass, m, in the last frame.
-        freedoms: small slides and hinges that exist, by name; the others are left out of the model.
-        stiffness: N m/rad of the freedoms that are springs.
-        motor_stiffness: N m/rad by motor (0-based), of motors that give way.
-        flexibility: 1/(N m^2) by link (0-based): 1 / (E I) of links that bend.
-        pedestal_turn: from the base's x axis to the pedestal's u axis, rad.
-    """
-
-    row_errors: Array
-    tool_error: Array = field(default_factory=lambda: np.zeros(3))
+    row_errors: Array  # (n, 4) added to a (m), alpha (rad), d (m), theta (rad) of the D-H rows
+    tool_error: Array = field(default_factory=lambda: np.zeros(3))  # (3,) added to the tool point, m
+    # (3,) from the tool point to the payload's centre of mass, m, in the last frame
     payload_offset: Array = field(default_factory=lambda: np.zeros(3))
+    # small slides and hinges that exist, by name; the others are left out of the model
     freedoms: frozenset[str] = frozenset()
-    stiffness: Mapping[str, float] = field(default_factory=dict)
+    stiffness: Mapping[str, float] = field(default_factory=dict)  # N m/rad of the freedoms that are springs
+    # N m/rad by motor (0-based), of motors that give way
     motor_stiffness: Mapping[int, float] = field(default_factory=dict)
+    # 1/(N m^2) by link (0-based): 1 / (E I) of links that bend
     flexibility: Mapping[int, float] = field(default_factory=dict)
-    pedestal_turn: float = 0.0
+    pedestal_turn: float = 0.0  # from the base's x axis to the pedestal's u axis, rad
 
 
 class Geometry:

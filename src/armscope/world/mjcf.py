@@ -127,8 +127,7 @@ def _motor_springs(geometry: Geometry, layout: Layout) -> str:
     return f"<tendon>{''.join(tendons)}</tendon>"
 
 
-Point = tuple[float, Array]
-"""A mass, kg, and where it is, m."""
+Point = tuple[float, Array]  # A mass, kg, and where it is, m
 
 
 def _mass_from_root(geometry: Geometry, body: int, step: Frame) -> Point:

@@ -21,31 +21,20 @@ DRIVERS = {APPROACH: "approach", TEMPERATURE: "temperature_c", SPEED: "speed"}
 
 @dataclass(frozen=True, eq=False)
 class Oracle:
-    """One who knows every effect of a session but its size; see `oracle_rms`.
+    """One who knows every effect of a session but its size; see `oracle_rms`."""
 
-    Attributes:
-        frames: (3 N, f) what free frames can do, each column of length one.
-        known: effects of which a column of the table says how they went.
-        displaced: (3 N, k) of each of them, m, per unit of what the oracle takes to be of a size of one.
-        missing: (3 N,) readings less the nominal arm's, m.
-        seen, unseen: numbers of the coordinates of recorded and of held-out rows.
-        variance: of the noise, m^2.
-    """
-
-    frames: Array
-    known: list[Sized]
-    displaced: list[Array]
-    missing: Array
+    frames: Array  # (3 N, f) what free frames can do, each column of length one
+    known: list[Sized]  # effects of which a column of the table says how they went
+    displaced: list[Array]  # (3 N, k) of each of them, m, per unit of what the oracle takes to be of a size of one
+    missing: Array  # (3 N,) readings less the nominal arm's, m
+    # seen, unseen: numbers of the coordinates of recorded and of held-out rows
     seen: Indices
     unseen: Indices
-    variance: float
+    variance: float  # of the noise, m^2
 
     def fitted(self, without: int | None = None) -> tuple[Array, Array, float]:
-        """The columns, their values, and the log evidence of the recorded rows, nats, but for what is the same for all.
-
-        Args:
-            without: an effect that is taken to be absent, by its number in ``known``.
-        """
+        """The columns, their values, and the log evidence of the recorded rows, nats, but for what is the same for
+        all. ``without``: an effect that is taken to be absent, by its number in ``known``."""
         matrix = np.concatenate([self.frames, *(d for k, d in enumerate(self.displaced) if k != without)], axis=1)
         seen = matrix[self.seen]
         # the frames' columns have a length of one, so a size of one of theirs, too, is as good as anywhere
@@ -89,13 +78,6 @@ def oracle_rms(oracle: Oracle, columns: list[str]) -> float:
     one give or take all of it; of a gear's many waves it knows the numbers and how their sizes fall, not the phases.
     What follows a column that the table doesn't show it can't predict either: where times are not recorded, the order
     of the recorded rows tells it how they went, and held-out rows are predicted as the recorded ones were on average.
-
-    Args:
-        oracle: of the session.
-        columns: context of the table.
-
-    Returns:
-        Over the held-out rows' readings.
     """
     matrix, values, _ = oracle.fitted()
     frames, missing, seen, unseen = oracle.frames, oracle.missing, oracle.seen, oracle.unseen

@@ -7,18 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.world.kinds import (
-    ANGLE,
-    APPROACH,
-    LOAD,
-    TIME,
-    Kind,
-    Parameter,
-    Scene,
-    Values,
-    joints,
-    number,
-)
+from armscope.world.kinds import ANGLE, APPROACH, LOAD, TIME, Kind, Parameter, Scene, Values, joints, number
 from armscope.world.statics import Hidden
 
 _AMPLITUDE = Parameter("amplitude", "rad")

@@ -20,8 +20,7 @@ from armscope.world.kinds import Scene, joints, links_longer_than
 from armscope.world.layout import BASE_FREEDOMS, SEGMENTS, TARGET_FREEDOMS, Layout, all_freedoms, segment_hinges
 from armscope.world.mechanism import Mechanism
 
-MOMENTS = tuple(np.linspace(0.1, 0.9, 17).tolist())
-"""Shares of the rows after which a rival jumps."""
+MOMENTS = tuple(np.linspace(0.1, 0.9, 17).tolist())  # Shares of the rows after which a rival jumps
 
 
 @dataclass(frozen=True, eq=False)

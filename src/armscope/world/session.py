@@ -56,7 +56,7 @@ def random_session(
     Returns:
         Commanded angles, rad, and the context of every row.
     """
-    commanded = reachable_poses(description, rng, FEW_POSES if rule == "few" else count, rule)
+    commanded = _reachable_poses(description, rng, FEW_POSES if rule == "few" else count, rule)
     if rule == "few":
         commanded = commanded[rng.integers(0, FEW_POSES, count)]
     if rule == "in_order":
@@ -76,21 +76,9 @@ def random_session(
     return Session(commanded, np.asarray(payload.round(3), dtype=float), time, temperature, run, approach, speed)
 
 
-def reachable_poses(description: RobotDescription, rng: np.random.Generator, count: int, rule: str = "free") -> Array:
-    """(count, m) motor angles within the limits, tool above the floor and clear of the base, to 1e-7 rad.
-
-    Args:
-        description: the arm; its joint limits bound the poses.
-        rng: draws the poses.
-        count: how many.
-        rule: one of `POSE_RULES`.
-
-    Returns:
-        (count, m) rad.
-
-    Raises:
-        RuntimeError: hardly any pose of the rule can be reached.
-    """
+def _reachable_poses(description: RobotDescription, rng: np.random.Generator, count: int, rule: str = "free") -> Array:
+    """(count, m) motor angles, rad, of a rule: tool above the floor and clear of the base, rounded to 1e-7 rad.
+    Raises RuntimeError: hardly any pose of the rule can be reached."""
     assert description.joint_limits_deg is not None, "worlds need joint limits"
     geometry = Geometry(description)
     mechanism = Mechanism(geometry, Layout(row_errors=np.zeros((geometry.n_joints, 4))))

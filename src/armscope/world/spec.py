@@ -25,8 +25,7 @@ Category = Literal[
 
 
 Details = dict[str, object]
-Recipe = Callable[[np.random.Generator], Details]
-"""What a world of a kind is made from, as far as that is drawn."""
+Recipe = Callable[[np.random.Generator], Details]  # What a world of a kind is made from, as far as that is drawn
 
 
 def seeded(number: int, fixed_seed: int, proof_seed: int) -> tuple[Details, np.random.Generator]:
@@ -46,54 +45,32 @@ def seeded(number: int, fixed_seed: int, proof_seed: int) -> tuple[Details, np.r
 
 
 class EffectSpec(Strict):
-    """An effect that a world is to conceal, of an arm that stands or of one that moves.
+    """An effect that a world is to conceal, of an arm that stands or of one that moves."""
 
-    Attributes:
-        kind: key of `KINDS`.
-        strength: RMS at the tool in multiples of the noise; of an arm that moves, RMS torque.
-        location: where; drawn among the places where it can be seen if left out.
-        minor: belongs to the background of a real arm, not to the story.
-    """
-
-    kind: str
-    strength: float
-    location: str | None = None
-    minor: bool = False
+    kind: str  # key of `KINDS`
+    strength: float  # RMS at the tool in multiples of the noise; of an arm that moves, RMS torque
+    location: str | None = None  # where; drawn among the places where it can be seen if left out
+    minor: bool = False  # belongs to the background of a real arm, not to the story
 
 
 class WorldSpec(Strict):
-    """All that a world is made from.
+    """All that a world is made from."""
 
-    Attributes:
-        id: its folder's name; it says nothing about what is inside.
-        category: what it is there to show.
-        arm: file in config/robots without its ending.
-        seed: of everything random in it.
-        fresh: whether the seed comes from the proof's seed.
-        rows: recorded poses.
-        sigma_mm: 1-sigma noise per axis.
-        effects: what it conceals.
-        poses: rule of `armscope.world.session.POSE_RULES`.
-        columns: context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects
-            need is left out), `irrelevant` (everything, and columns that mean nothing).
-        masses: what robot.yaml says about the links' masses.
-        noise: `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom), `rough`
-            (see `armscope.world.rough.rough_noise`).
-        rough: what the arm has everywhere, names of `armscope.world.rough.BLEMISHES`.
-        noise_stated: whether robot.yaml states the instrument's sigma.
-    """
-
-    id: str
-    category: Category
-    arm: str
-    seed: int
-    fresh: bool
+    id: str  # its folder's name; it says nothing about what is inside
+    category: Category  # what it is there to show
+    arm: str  # file in config/robots without its ending
+    seed: int  # of everything random in it
+    fresh: bool  # whether the seed comes from the proof's seed
     rows: int
-    sigma_mm: float
+    sigma_mm: float  # 1-sigma noise per axis
     effects: tuple[EffectSpec, ...] = ()
-    poses: PoseRule = "free"
+    poses: PoseRule = "free"  # rule of `armscope.world.session.POSE_RULES`
+    # context in recordings.csv: `some` (all that is needed, others at random), `missing` (what the effects need is left
+    # out), `irrelevant` (everything, and columns that mean nothing)
     columns: Literal["some", "missing", "irrelevant"] = "some"
-    masses: Literal["right", "wrong", "absent"] = "right"
+    masses: Literal["right", "wrong", "absent"] = "right"  # what robot.yaml says about the links' masses
+    # `gaussian`, `outliers` (2 % bad shots), `heavy_tails` (Student's t with 3 degrees of freedom), `rough` (see
+    # `armscope.world.rough.rough_noise`)
     noise: Literal["gaussian", "outliers", "heavy_tails", "rough"] = "gaussian"
-    rough: tuple[str, ...] = ()
-    noise_stated: bool = True
+    rough: tuple[str, ...] = ()  # what the arm has everywhere, names of `armscope.world.rough.BLEMISHES`
+    noise_stated: bool = True  # whether robot.yaml states the instrument's sigma

@@ -26,25 +26,15 @@ MAX_STEPS = 200
 
 @dataclass(frozen=True, eq=False)
 class Session:
-    """What was commanded and what went on around it, one entry per row (SI units, degrees Celsius).
+    """What was commanded and what went on around it, one entry per row (SI units, degrees Celsius)."""
 
-    Attributes:
-        commanded: (N, m) motor angles, rad.
-        payload: (N,) stated payload at the tool point, kg.
-        time: (N,) s, increasing.
-        temperature: (N,) deg C.
-        run: (N,) number of the run, from 1.
-        approach: (N, m) -1 or +1: sign of each motor's last motion.
-        speed: (N, m) rad/s.
-    """
-
-    commanded: Array
-    payload: Array
-    time: Array
-    temperature: Array
-    run: NDArray[np.int64]
-    approach: Array
-    speed: Array
+    commanded: Array  # (N, m) motor angles, rad
+    payload: Array  # (N,) stated payload at the tool point, kg
+    time: Array  # (N,) s, increasing
+    temperature: Array  # (N,) deg C
+    run: NDArray[np.int64]  # (N,) number of the run, from 1
+    approach: Array  # (N, m) -1 or +1: sign of each motor's last motion
+    speed: Array  # (N, m) rad/s
 
     def __len__(self) -> int:
         return len(self.commanded)
@@ -56,27 +46,17 @@ class Session:
 
 @dataclass(eq=False)
 class Hidden:
-    """Everything a world conceals in the rows of one session; effects add to it (see `armscope.world.conceal`).
+    """Everything a world conceals in the rows of one session; effects add to it (see `armscope.world.conceal`)."""
 
-    Attributes:
-        layout: geometry errors, freedoms and springs.
-        motor: (N, m) angle beyond the commanded one, rad.
-        chain: (N, n) angle of the chain's joints beyond what the motors command, rad.
-        small: small slides (m) and hinges (rad) by name, (N,) each.
-        curves: angle of a motor (0-based) as a function of gravity's torque on it, N m to rad.
-        payload_mass: added to the stated payload, kg.
-        payload_share: added to the stated payload, as a share of it.
-        scale: the instrument's length is (1 + scale) times the true one.
-    """
-
-    layout: Layout
-    motor: Array
-    chain: Array
-    small: dict[str, Array] = field(default_factory=dict)
+    layout: Layout  # geometry errors, freedoms and springs
+    motor: Array  # (N, m) angle beyond the commanded one, rad
+    chain: Array  # (N, n) angle of the chain's joints beyond what the motors command, rad
+    small: dict[str, Array] = field(default_factory=dict)  # small slides (m) and hinges (rad) by name, (N,) each
+    # angle of a motor (0-based) as a function of gravity's torque on it, N m to rad
     curves: list[tuple[int, LoadCurve]] = field(default_factory=list)
-    payload_mass: float = 0.0
-    payload_share: float = 0.0
-    scale: float = 0.0
+    payload_mass: float = 0.0  # added to the stated payload, kg
+    payload_share: float = 0.0  # added to the stated payload, as a share of it
+    scale: float = 0.0  # the instrument's length is (1 + scale) times the true one
 
     @classmethod
     def nothing(cls, geometry: Geometry, session: Session) -> Hidden:
@@ -94,9 +74,7 @@ class Hidden:
         before = self.layout.stiffness.get(name)
         total = compliance + (1 / before if before else 0.0)
         self.layout = replace(
-            self.layout,
-            freedoms=self.layout.freedoms | {name},
-            stiffness={**self.layout.stiffness, name: 1 / total},
+            self.layout, freedoms=self.layout.freedoms | {name}, stiffness={**self.layout.stiffness, name: 1 / total}
         )
 
     def motor_spring(self, motor: int, compliance: float) -> None:
@@ -119,19 +97,12 @@ class Hidden:
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """The arm in equilibrium at every row.
+    """The arm in equilibrium at every row."""
 
-    Attributes:
-        tool: (N, 3) tool point in the base frame, m, by the instrument's scale.
-        motor_torque: (N, m) gravity's torque on each motor there, N m.
-        residual: largest force left over on a spring, as a share of the largest load on any spring.
-        tool_turn: (N, 3, 3) orientation of the tool in the base frame.
-    """
-
-    tool: Array
-    motor_torque: Array
-    residual: float
-    tool_turn: Array
+    tool: Array  # (N, 3) tool point in the base frame, m, by the instrument's scale
+    motor_torque: Array  # (N, m) gravity's torque on each motor there, N m
+    residual: float  # largest force left over on a spring, as a share of the largest load on any spring
+    tool_turn: Array  # (N, 3, 3) orientation of the tool in the base frame
 
 
 def balance(geometry: Geometry, session: Session, hidden: Hidden) -> Balance:

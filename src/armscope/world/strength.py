@@ -124,19 +124,12 @@ def equilibrium(scene: Scene, effects: Iterable[Concealed]) -> Balance:
 
 @dataclass(frozen=True, eq=False)
 class Sized:
-    """A concealed effect of known size.
+    """A concealed effect of known size."""
 
-    Attributes:
-        effect: with its final numbers.
-        rms: at the tool, m, alone and after the frames.
-        pattern: (N, 3) displacement of the tool by it, m.
-        minor: belongs to the background of a real arm, not to the story.
-    """
-
-    effect: Concealed
-    rms: float
-    pattern: Array
-    minor: bool = False
+    effect: Concealed  # with its final numbers
+    rms: float  # at the tool, m, alone and after the frames
+    pattern: Array  # (N, 3) displacement of the tool by it, m
+    minor: bool = False  # belongs to the background of a real arm, not to the story
 
 
 def sized(
@@ -176,8 +169,7 @@ def sized(
 
 SEEN_SHARE = 0.08
 """An effect of which the frames leave less than this share of its RMS isn't concealed: nobody could find it."""
-LARGEST_RAW_M = 0.02
-"""No effect moves the tool by more than this RMS."""
+LARGEST_RAW_M = 0.02  # No effect moves the tool by more than this RMS
 
 
 def carried(scene: Scene, effect: Concealed, carriers: list[Concealed], wanted: float) -> tuple[Sized, list[Sized]]:

@@ -19,23 +19,14 @@ PARALLEL = np.sin(np.radians(5))
 
 @dataclass(frozen=True)
 class GeometricErrors:
-    """K possible errors of an arm and their tolerances.
-
-    Attributes:
-        arm: the nominal arm.
-        names: "a2", "alpha2", "d2", "theta2", "beta2", "base x", ...
-        locations: where the twist acts: "base", "joint j" or "link j".
-        directions: (K, 6) twist of a unit error (m or rad) in that frame.
-        sigmas: (K,) one-sigma sizes, m or rad.
-        angular: (K,) whether it is an angle.
-    """
+    """K possible errors of an arm and their tolerances."""
 
     arm: Arm
-    names: tuple[str, ...]
-    locations: tuple[str, ...]
-    directions: Array
-    sigmas: Array
-    angular: NDArray[np.bool_]
+    names: tuple[str, ...]  # "a2", "alpha2", "d2", "theta2", "beta2", "base x", ...
+    locations: tuple[str, ...]  # where the twist acts: "base", "joint j" or "link j"
+    directions: Array  # (K, 6) twist of a unit error (m or rad) in that frame
+    sigmas: Array  # (K,) one-sigma sizes, m or rad
+    angular: NDArray[np.bool_]  # (K,) whether it is an angle
 
     def jacobian(self, frames: Chain) -> Array:
         """(N, 3, K) displacement of the tool, m, per error of one sigma."""
@@ -90,8 +81,7 @@ def geometric_errors(
     return GeometricErrors(arm, names, locations, np.array(directions), np.array(sigmas), np.array(angulars))
 
 
-UnitError = tuple[str, Array, bool]
-"""Name, twist of a unit error, whether it is an angle."""
+UnitError = tuple[str, Array, bool]  # Name, twist of a unit error, whether it is an angle
 
 
 def _frame(prefix: str = "", suffix: str = "") -> list[UnitError]:

@@ -27,30 +27,20 @@ TO_TEN_NANOMETRES = 7
 
 @dataclass(frozen=True, eq=False)
 class VirtualArm:
-    """An arm, the session it was recorded in, and what it conceals.
+    """An arm, the session it was recorded in, and what it conceals."""
 
-    Attributes:
-        spec: what it was made from.
-        scene: the nominal arm in the whole session, recorded and held-out rows, in order of time.
-        nominal: (N, 3) tool points of the nominal arm, m.
-        recorded, held_out: rows for the diagnosis and rows that test.
-        chosen: the concealed effects.
-        seen: how well those of the story (not `minor`) can be found, in their order, if nobody says what a run is.
-        judge: who says so.
-        frames: registration and tool error.
-        noise: generator of the measurement noise, fresh.
-    """
-
-    spec: WorldSpec
-    scene: Scene
-    nominal: Array
+    spec: WorldSpec  # what it was made from
+    scene: Scene  # the nominal arm in the whole session, recorded and held-out rows, in order of time
+    nominal: Array  # (N, 3) tool points of the nominal arm, m
+    # recorded, held_out: rows for the diagnosis and rows that test
     recorded: Indices
     held_out: Indices
     chosen: tuple[Sized, ...]
+    # how well those of the story (not `minor`) can be found, in their order, if nobody says what a run is
     seen: tuple[Visibility, ...]
     judge: Judge
-    frames: Frames
-    noise: np.random.Generator
+    frames: Frames  # registration and tool error
+    noise: np.random.Generator  # generator of the measurement noise, fresh
 
 
 def conceal(spec: WorldSpec, robots: Path) -> VirtualArm:
@@ -103,19 +93,12 @@ def true_points(arm: VirtualArm, scene: Scene) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """All rows of a virtual arm's own session as measured; m and N m.
+    """All rows of a virtual arm's own session as measured; m and N m."""
 
-    Attributes:
-        points: (N, 3) true places in the measurement frame.
-        noise: (N, 3), bad shots included.
-        bad: (N,) rows that are bad shots.
-        torque: (N, m) gravity's torque on the motors.
-    """
-
-    points: Array
-    noise: Array
-    bad: NDArray[np.bool_]
-    torque: Array
+    points: Array  # (N, 3) true places in the measurement frame
+    noise: Array  # (N, 3), bad shots included
+    bad: NDArray[np.bool_]  # (N,) rows that are bad shots
+    torque: Array  # (N, m) gravity's torque on the motors
 
     @property
     def readings(self) -> Array:

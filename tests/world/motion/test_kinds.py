@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from armscope.core.location import Location
+from armscope.world.motion.catalogue import OUTSIDE
 from armscope.world.motion.kinds import LIBRARY, Concealed
-from armscope.world.motion.outside import OUTSIDE
 from armscope.world.motion.session import GRID_HZ, make_session
 from armscope.world.motion.stage import Stage, sign
 from armscope.world.motion.virtual_arm import VirtualArm

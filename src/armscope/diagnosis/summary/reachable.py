@@ -8,9 +8,8 @@ import numpy as np
 
 from armscope.core.types import Array
 from armscope.diagnosis.summary.constants import NEXT_POSES
-from armscope.poses.body_words import body_in_words
 from armscope.poses.constants import UP
-from armscope.poses.obstacles import Surroundings, lowest, refusals
+from armscope.poses.obstacles import Surroundings, body_in_words, lowest, refusals
 from armscope.recordings import Recordings
 from armscope.robot import Arm
 

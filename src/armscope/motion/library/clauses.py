@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Callable
 
-from armscope.core.numerals import rounded, shown_unit, size_of
+from armscope.core.words import rounded, shown_unit, size_of
 from armscope.motion.verdict import FoundCause
 from armscope.verdict.effects import INTERVAL, Parameter
 from armscope.verdict.wording import decimals_for

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.motion.library.change_constants import CHANGE
 from armscope.motion.library.clauses import Numbers, amount, rms_of
 from armscope.motion.library.remedies import Fitted

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.core.numerals import rounded, shown_unit
+from armscope.core.words import rounded, shown_unit
 from armscope.motion.library.clauses import Numbers, rms_of
 from armscope.motion.library.rocking import ABOUT
 from armscope.motion.verdict import FoundCause

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, rounded
 from armscope.inference.search import Search
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.fitting.weights import autocorrelation_time

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.motion.constants import TELLING
 from armscope.motion.summary.held_out_errors import ON_HELD_OUT, HeldOutErrors
 from armscope.motion.summary.lasting import LastingTorque, lasting_words

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.motion.constants import PRIOR
 from armscope.motion.summary.constants import HELD_OUT, NAMING
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
+from armscope.core.words import rounded
 from armscope.motion.constants import CHECK, LIBRARY
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library import catalogue

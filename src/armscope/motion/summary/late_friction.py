@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.inference.evidence import Hypothesis, at_noise
 from armscope.motion.constants import PRIOR
 from armscope.motion.fitting.selected import SelectedCauses

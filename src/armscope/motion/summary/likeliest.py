@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from armscope.core.numerals import size_of
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, size_of
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.summary.constants import NAMING
 from armscope.motion.summary.judgement import title
 from armscope.motion.summary.names_of_masses import NameOfMasses, likely_names
-from armscope.verdict.counting import odds_in_words
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
+from armscope.verdict.wording import odds_in_words
 
 
 def likeliest_in_words(selected: SelectedCauses) -> str:

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from armscope.core.numerals import rounded
 from armscope.core.types import Array
+from armscope.core.words import rounded
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.library.clauses import run_in_words
 from armscope.motion.summary.constants import LASTING, WANDERING

@@ -18,31 +18,18 @@ OVER_TESTS = "3D errors over trajectories I–III together"
 
 @dataclass(frozen=True)
 class Claim:
-    """What is claimed, where and in which words, what counts as true of one robot, and who judges.
+    """What is claimed, where and in which words, what counts as true of one robot, and who judges."""
 
-    Attributes:
-        key: short name in tables and files.
-        claim: in our words.
-        group: one of `GROUPS`.
-        source: page and section.
-        wording: of the paper; "" where the claim is read off Table 2.
-        criterion: what counts as true of one robot.
-        number_is, unit: the number that goes with it.
-        judge: from evidence; None where the evidence for it was not gathered.
-        needs: models without which it can't be judged.
-        any_of: at least one of these models is needed.
-        fitted: `BY_SWARM` (judged once per method) or `WITHOUT`.
-    """
-
-    key: str
+    key: str  # short name in tables and files
     claim: str
-    group: str
+    group: str  # one of `GROUPS`
     source: str
-    wording: str
-    criterion: str
+    wording: str  # of the paper; "" where the claim is read off Table 2
+    criterion: str  # what counts as true of one robot
+    # number_is, unit: the number that goes with it
     number_is: str
     unit: str
-    judge: Callable[[Evidence], Judged | None]
-    needs: tuple[str, ...] = ()
-    any_of: tuple[str, ...] = ()
-    fitted: str = BY_SWARM
+    judge: Callable[[Evidence], Judged | None]  # from evidence; None where the evidence for it was not gathered
+    needs: tuple[str, ...] = ()  # models without which it can't be judged
+    any_of: tuple[str, ...] = ()  # at least one of these models is needed
+    fitted: str = BY_SWARM  # `BY_SWARM` (judged once per method) or `WITHOUT`

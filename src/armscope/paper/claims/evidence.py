@@ -31,25 +31,15 @@ class Judged:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """Robots in the order of the rows of ``cells``.
+    """Robots in the order of the rows of ``cells``."""
 
-    Attributes:
-        cells: RMS errors by robot (rows) and (model, trajectory, axis), mm.
-        by_least_squares: the same of the least-squares fits.
-        fits: one per robot and model, by swarm.
-        random: the same by random search with as many evaluations; empty where it was not run.
-        sub_volumes: see `armscope.paper.sub_volumes`.
-        outlook: see `armscope.paper.outlook.outlook`.
-        poses: see `armscope.paper.enough_poses`.
-    """
-
-    cells: pd.DataFrame
-    by_least_squares: pd.DataFrame
-    fits: Sequence[SwarmFit]
-    random: Sequence[SwarmFit] = ()
-    sub_volumes: pd.DataFrame = field(default_factory=pd.DataFrame)
-    outlook: pd.DataFrame = field(default_factory=pd.DataFrame)
-    poses: pd.DataFrame = field(default_factory=pd.DataFrame)
+    cells: pd.DataFrame  # RMS errors by robot (rows) and (model, trajectory, axis), mm
+    by_least_squares: pd.DataFrame  # the same of the least-squares fits
+    fits: Sequence[SwarmFit]  # one per robot and model, by swarm
+    random: Sequence[SwarmFit] = ()  # the same by random search with as many evaluations; empty where it was not run
+    sub_volumes: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.outlook`
+    outlook: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.outlook.outlook`
+    poses: pd.DataFrame = field(default_factory=pd.DataFrame)  # see `armscope.paper.enough_poses`
 
     @staticmethod
     def of(measurements: Measurements, fits: Sequence[SwarmFit], random: Sequence[SwarmFit] = ()) -> Evidence:

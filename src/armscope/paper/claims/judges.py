@@ -15,15 +15,11 @@ from armscope.paper.enough_poses import PRINTED_COUNT, smallest_sufficient
 from armscope.paper.outlook import PLAIN, SUB_VOLUMES
 from armscope.paper.printed import AXES, IDENTIFICATION, TEST_TRAJECTORIES, TRAJECTORIES, UNCOMPENSATED
 
-CLOSE_PER_CENT = 1.0
-"""A swarm counts as equal to least squares if it stays within this above it."""
-SIMILAR = 2.0
-"""Errors of two axes count as "quite similar" up to this ratio."""
-SMALL_COST = 10.0
-"""The swarm's cost counts as small up to so many times the arithmetic of least squares."""
+CLOSE_PER_CENT = 1.0  # A swarm counts as equal to least squares if it stays within this above it
+SIMILAR = 2.0  # Errors of two axes count as "quite similar" up to this ratio
+SMALL_COST = 10.0  # The swarm's cost counts as small up to so many times the arithmetic of least squares
 
-PRINTED_ITERATIONS = 200
-"""Of a swarm in the paper (Sec. 5)."""
+PRINTED_ITERATIONS = 200  # Of a swarm in the paper (Sec. 5)
 
 FOURTH, FOURIER = POLYNOMIAL_4_AI.name, FOURIER_2_AI.name
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,58 @@ from armscope.paper.anchoring import ANCHORED
 from armscope.paper.claims.catalogue import CLAIMS
 from armscope.paper.claims.claim import BY_SWARM, Claim
 from armscope.paper.claims.evidence import AS_PRINTED, IMPROVED, LEAST_SQUARES, Evidence, Judged
-from armscope.paper.claims.verdicts import interval, under_assumptions, verdict
+
+HOLDS_FROM, FAILS_TO = 0.95, 0.05
+"""A claim holds if it is true of at least this share of the robots, fails if of at most that one."""
+
+HOLDS, FAILS, DEPENDS, OPEN = "holds", "fails", "depends on the robot", "too few robots to tell"
+DECISIVE = (HOLDS, FAILS, DEPENDS)
+
+
+@cache
+def interval(true: int, robots: int) -> tuple[float, float]:
+    """Exact 95 % interval of a share (Clopper & Pearson 1934)."""
+    from scipy.stats import binomtest  # takes half a second: seldom needed
+
+    found = binomtest(true, robots).proportion_ci(0.95, "exact")
+    return float(found.low), float(found.high)
+
+
+def verdict(true: int, robots: int) -> str:
+    """`HOLDS`, `FAILS` or `DEPENDS` where the 95 % interval lies on one side of both lines, else `OPEN`.
+
+    So 100 of 100 robots hold a claim, and 96 of 101 say nothing: the share may be 90 % or 98 %.
+    """
+    low, high = interval(true, robots)
+    if low >= HOLDS_FROM:
+        return HOLDS
+    if high <= FAILS_TO:
+        return FAILS
+    return DEPENDS if low > FAILS_TO and high < HOLDS_FROM else OPEN
+
+
+def under_assumptions(base: str, varied: Iterable[tuple[str, str]]) -> tuple[str, tuple[str, ...]]:
+    """What remains of a verdict when the assumptions are varied.
+
+    Args:
+        varied: (which assumption was varied, the verdict then), in the order of the scenarios.
+
+    Returns:
+        (verdict, assumptions that decide it): "holds under all", "fails under all", "depends on the robot", "depends on
+        the assumption" with the assumptions whose change alone gives another decisive verdict ("several at once" if
+        only changes together do), or `OPEN`. Scenarios with too few robots to tell contradict nothing.
+    """
+    rows = [("", base), *varied]
+    decisive = [(factor, each) for factor, each in rows if each in DECISIVE]
+    verdicts = {each for _, each in decisive}
+    if not verdicts:
+        return OPEN, ()
+    if len(verdicts) == 1:
+        only = verdicts.pop()
+        return (only if only == DEPENDS else f"{only} under all"), ()
+    reference = base if base in DECISIVE else decisive[0][1]
+    return "depends on the assumption", tuple(dict.fromkeys(f for f, each in decisive if each != reference))
+
 
 SKIPPED = "skipped"
 SIGNIFICANT = 0.05
@@ -94,7 +146,6 @@ def summarise(judged: pd.DataFrame, sensitivity: pd.DataFrame) -> pd.DataFrame:
     """The table of claims: the words of each, what was judged of it, and its verdict under varied assumptions.
 
     Args:
-        judged: the claims of the configured study.
         sensitivity: see `armscope.paper.sensitivity`; may be empty.
 
     Returns:

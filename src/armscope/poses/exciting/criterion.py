@@ -20,21 +20,13 @@ Pair = tuple[tuple[str, str], tuple[str, str]]
 
 @dataclass(frozen=True, eq=False)
 class Showable:
-    """What motions of an arm can show at all.
+    """What motions of an arm can show at all."""
 
-    Attributes:
-        base: columns (of `names`) that are independent of one another; the others move nothing, or only together.
-        scale: (b,) RMS of the base columns over random states: the unit in which they count.
-        weight: (m,) 1 / (RMS torque) of the motors over random states.
-        nothing: names of parameters that move no motor whatever the motion.
-        together: names that show only as a sum with others.
-    """
-
-    base: Array
-    scale: Array
-    weight: Array
-    nothing: tuple[str, ...]
-    together: tuple[str, ...]
+    base: Array  # columns (of `names`) that are independent of one another; the others move nothing, or only together
+    scale: Array  # (b,) RMS of the base columns over random states: the unit in which they count
+    weight: Array  # (m,) 1 / (RMS torque) of the motors over random states
+    nothing: tuple[str, ...]  # names of parameters that move no motor whatever the motion
+    together: tuple[str, ...]  # names that show only as a sum with others
 
 
 def shown_at_all(arm: Arm, limits: Limits, rng: np.random.Generator) -> Showable:
@@ -64,28 +56,18 @@ def shown_at_all(arm: Arm, limits: Limits, rng: np.random.Generator) -> Showable
     hidden = set(range(len(called))) - set(there)
     dependent = set(there) - set(base)
     return Showable(
-        base,
-        size[base],
-        weight,
-        tuple(called[k] for k in sorted(hidden)),
-        tuple(called[k] for k in sorted(dependent)),
+        base, size[base], weight, tuple(called[k] for k in sorted(hidden)), tuple(called[k] for k in sorted(dependent))
     )
 
 
 @dataclass(frozen=True)
 class MotionScore:
-    """Of a motion.
+    """Of a motion."""
 
-    Attributes:
-        value: what is maximised: log det of the information per sample, or the least separation of the pairs.
-        condition: of the base regressor, columns in their units.
-        weakest: the base parameter that shows least.
-        separations: for each pair the share of one cause's torque that the other can't imitate, 0 ... 1.
-    """
-
-    value: float
-    condition: float
-    weakest: str = ""
+    value: float  # what is maximised: log det of the information per sample, or the least separation of the pairs
+    condition: float  # of the base regressor, columns in their units
+    weakest: str = ""  # the base parameter that shows least
+    # for each pair the share of one cause's torque that the other can't imitate, 0 ... 1
     separations: tuple[float, ...] = ()
 
 
@@ -162,16 +144,11 @@ def _pattern(arm: Arm, motion: Motion, links: Array, cause: tuple[str, str]) -> 
 
 @dataclass(frozen=True)
 class Sorted:
-    """Pairs of causes by what a motion can do for them.
+    """Pairs of causes by what a motion can do for them."""
 
-    Attributes:
-        apart: those that some motion tells apart.
-        alike: those that no motion tells apart.
-        lawless: those of which a cause has no law, such as a free curve, so that no motion can be planned for them.
-    """
-
-    apart: tuple[Pair, ...]
-    alike: tuple[Pair, ...]
+    apart: tuple[Pair, ...]  # those that some motion tells apart
+    alike: tuple[Pair, ...]  # those that no motion tells apart
+    # those of which a cause has no law, such as a free curve, so that no motion can be planned for them
     lawless: tuple[Pair, ...]
 
 

@@ -25,11 +25,8 @@ class MotionLimits:
 
 
 def limits_of(arm: Arm) -> MotionLimits:
-    """Of an arm; `drives` in robot.yaml come before the URDF.
-
-    Raises:
-        InputError: an arm without masses, of which no torque is known.
-    """
+    """Of an arm; `drives` in robot.yaml come before the URDF. Raises InputError: an arm without masses, of which no
+    torque is known."""
     if not arm.has_masses:
         rule = "torques need masses: state `links`, or a URDF with inertias"
         raise InputError(arm.name, "", "no masses", rule)

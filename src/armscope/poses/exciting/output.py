@@ -12,10 +12,10 @@ from armscope.core.files import read_json, write_json, write_table
 from armscope.core.inputs import InputError
 from armscope.core.streams import is_stream
 from armscope.core.types import Array
-from armscope.poses.body_words import body_notes
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.criterion import MotionScore, Pair
 from armscope.poses.exciting.search import Excitation, times_of_table
+from armscope.poses.obstacles import body_notes
 from armscope.robot import Arm
 from armscope.robot.dynamics import inertial_parameters
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -119,11 +119,7 @@ def _too_close(alternative: object) -> bool:
 
 
 def _cause(content: object, verdict: Path, place: str) -> tuple[str, str]:
-    """Name and place of a cause of a verdict.
-
-    Raises:
-        InputError: it has none.
-    """
+    """Name and place of a cause of a verdict. Raises InputError: it has none."""
     if isinstance(content, dict):
         name, location = content.get("effect"), content.get("location")
         if isinstance(name, str) and isinstance(location, str):

@@ -14,14 +14,7 @@ from armscope.core.types import Array
 from armscope.design.fourier import FourierPath, random_path
 from armscope.poses.exciting.columns import Motion, all_columns, stated_friction
 from armscope.poses.exciting.constants import MOTION
-from armscope.poses.exciting.criterion import (
-    MotionScore,
-    Pair,
-    Showable,
-    motion_score,
-    shown_at_all,
-    told_apart,
-)
+from armscope.poses.exciting.criterion import MotionScore, Pair, Showable, motion_score, shown_at_all, told_apart
 from armscope.poses.exciting.limits import MotionLimits, limits_of
 from armscope.poses.obstacles import REASONS, Surroundings, refusals
 from armscope.robot import Arm
@@ -30,55 +23,34 @@ from armscope.robot.dynamics import inertial_parameters
 
 @dataclass(frozen=True, eq=False)
 class Excitation:
-    """A motion and what it is worth.
+    """A motion and what it is worth."""
 
-    Attributes:
-        arm, limits, around: what it is for.
-        path: the motion.
-        shown: what any motion could show.
-        before: the scores of the random motions, median first by `value`.
-        after: its own score.
-        pairs: what it tells apart; empty: everything.
-        inseparable: pairs that were asked for and that no motion tells apart.
-        lawless: pairs that were asked for, of which a cause has no law to plan a motion by.
-        torque: (m,) largest torque of the stated model along it, N m.
-        tried: motions that were looked at; `refused`: of them beyond torque limits or in collision.
-    """
-
+    # arm, limits, around: what it is for
     arm: Arm
     limits: MotionLimits
     around: Surroundings
     path: FourierPath
-    shown: Showable
-    before: MotionScore
+    shown: Showable  # what any motion could show
+    before: MotionScore  # the scores of the random motions, median first by `value`
     after: MotionScore
-    pairs: tuple[Pair, ...]
-    inseparable: tuple[Pair, ...]
-    lawless: tuple[Pair, ...]
-    torque: Array
-    tried: int
+    pairs: tuple[Pair, ...]  # what it tells apart; empty: everything
+    inseparable: tuple[Pair, ...]  # pairs that were asked for and that no motion tells apart
+    lawless: tuple[Pair, ...]  # pairs that were asked for, of which a cause has no law to plan a motion by
+    torque: Array  # (m,) largest torque of the stated model along it, N m
+    tried: int  # motions that were looked at; `refused`: of them beyond torque limits or in collision
     refused: int
 
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What motion is wanted.
+    """What motion is wanted."""
 
-    Attributes:
-        period: s.
-        harmonics: of it.
-        rounds: of bettering.
-        seed: of the search.
-        pairs: causes to tell apart.
-        rate: samples per second of the table, all of which keep clear.
-    """
-
-    period: float = MOTION.period_s
+    period: float = MOTION.period_s  # s
     harmonics: int = MOTION.harmonics
     rounds: int = MOTION.rounds
     seed: int = 0
-    pairs: tuple[Pair, ...] = ()
-    rate: float = MOTION.rate_hz
+    pairs: tuple[Pair, ...] = ()  # causes to tell apart
+    rate: float = MOTION.rate_hz  # samples per second of the table, all of which keep clear
 
 
 def times_of_table(period: float, rate: float) -> Array:
@@ -129,18 +101,8 @@ def _bettered(
     progress: Callable[[int, int], None] | None,
     most: float,
 ) -> tuple[FourierPath, MotionScore, MotionScore]:
-    """The best of some motions, bettered; the score of the median one, and its own.
-
-    Args:
-        search: that scores and refuses.
-        found: the motions.
-        rng: of the changes.
-        progress: as in `excite`.
-        most: times as large as they are that changed waves are made where the limits leave room.
-
-    Returns:
-        The motion and the scores.
-    """
+    """The best of some motions, bettered; the score of the median one, and its own. ``progress``: as in `excite`;
+    ``most``: times as large as they are that changed waves are made where the limits leave room."""
     scores = [search.score(path) for path in found]
     order = np.argsort([each.value for each in scores])
     before = scores[int(order[(len(order) - 1) // 2])]
@@ -222,10 +184,7 @@ class _Search:
 
     def about_clear_poses(self, rng: np.random.Generator) -> list[FourierPath]:
         """Small motions about poses that are clear, for arms that meet themselves, or the floor, on larger ones.
-
-        Raises:
-            InputError: none is possible either.
-        """
+        Raises InputError: none is possible either."""
         low, high = self.limits.path.angle.T
         poses = rng.uniform(low, high, (MOTION.clear_poses, len(low)))
         reasons = refusals(self.arm, poses, self.around)

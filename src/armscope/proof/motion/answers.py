@@ -21,24 +21,18 @@ KEPT = (VERDICT, "model.yaml", PREDICTED)
 
 @dataclass(frozen=True, eq=False)
 class MotionAnswer:
-    """A verdict on a motion; ``failed`` holds the reason where there is none.
-
-    Attributes:
-        world: whose.
-        claims: its causes, one per name, and what it calls unknown.
-        mismatch, answer: as in verdict.json.
-        zeros: of links' encoders beside their motors': (value, standard error, unit) by joint.
-        background: ordinary friction and rotors by joint: (value, standard error, unit) by name.
-        predicted: torques of the test path; None: there are none, ``not_predicted`` says why.
-    """
+    """A verdict on a motion; ``failed`` holds the reason where there is none."""
 
     world: str
-    claims: tuple[NamedEffect, ...] = ()
+    claims: tuple[NamedEffect, ...] = ()  # its causes, one per name, and what it calls unknown
+    # mismatch, answer: as in verdict.json
     mismatch: bool | None = None
     answer: str = "failed"
+    # ordinary friction and rotors by joint: (value, standard error, unit) by name
     background: tuple[tuple[str, Numbers], ...] = ()
+    # of links' encoders beside their motors': (value, standard error, unit) by joint
     zeros: Numbers = field(default_factory=dict)
-    predicted: pd.DataFrame | None = None
+    predicted: pd.DataFrame | None = None  # torques of the test path; None: there are none, ``not_predicted`` says why
     failed: str = ""
     not_predicted: str = ""
 

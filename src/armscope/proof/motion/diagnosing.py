@@ -17,17 +17,12 @@ from armscope.proof.answers import FAILURE
 from armscope.proof.motion.answers import KEPT, NOT_PREDICTED, PREDICTED
 
 LONGEST_S = 1200.0
-LAST_WORDS = 2000
-"""Characters of what a failed command said that are kept."""
+LAST_WORDS = 2000  # Characters of what a failed command said that are kept
 
 
 def diagnose_worlds(worlds: Iterable[Path], output: Path) -> None:
-    """`armscope diagnose` and, for the path without torques, `armscope predict` on every world.
-
-    Args:
-        worlds: folders with robot.yaml, motions.csv and test_motions.csv.
-        output: new folder; each world's verdict goes into a folder of the world's name.
-    """
+    """`armscope diagnose` and, for the path without torques, `armscope predict` on every world. ``output``: new
+    folder; each world's verdict goes into a folder of the world's name."""
     new_folder(output)
     for world in worlds:
         started = time.perf_counter()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.proof.binomial import RATE, Rate, Row, aim_row, aim_rows, of_seeds, rate
 from armscope.proof.definitions import SEEDS
 from armscope.proof.motion.scoring import AIMS

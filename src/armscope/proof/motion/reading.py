@@ -16,16 +16,11 @@ from armscope.proof.motion.scoring import MotionWorld
 from armscope.proof.motion.truth import unseal
 from armscope.proof.reading import check_seal
 
-ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}
-"""All that a diagnosing job may see of a world."""
+ALLOWED = {"robot.yaml", "motions.csv", "test_motions.csv"}  # All that a diagnosing job may see of a world
 
 
 def read_worlds(folder: Path) -> Iterator[MotionWorld]:
-    """Every world of a proof with its answer.
-
-    Raises:
-        InputError: a diagnosing job could see more than it may.
-    """
+    """Every world of a proof with its answer. Raises InputError: a diagnosing job could see more than it may."""
     check_seal(folder / "seen.txt", ALLOWED)
     for world, truth in unseal(folder / "sealed.tar.gz").items():
         yield MotionWorld(truth, read_answer(folder / "verdicts" / world))

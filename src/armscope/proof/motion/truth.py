@@ -32,19 +32,7 @@ BACKGROUND = {"coulomb": "coulomb_nm", "viscous": "viscous_nm_s_rad", "inertia":
 
 @dataclass(frozen=True, eq=False)
 class MotionTruth:
-    """What a moving world conceals.
-
-    Attributes:
-        world, category, arm, fresh, rows, stated: as made.
-        outside: whether no library has it.
-        effects: what is concealed.
-        rough: what a rough arm has everywhere; nobody is asked to name it.
-        also_allowed: names that are no wrong ones besides those of both.
-        background: by joint, the friction and rotors of this arm.
-        zeros: (n,) rad, of links' encoders beside their motors'; empty where links have none.
-        left_nm: (n,) RMS that the truth itself leaves on the test path; left_moving_nm: where the joint moves.
-        test: the test path with its torques, and where each joint moves.
-    """
+    """What a moving world conceals."""
 
     world: str
     category: str
@@ -52,23 +40,19 @@ class MotionTruth:
     fresh: bool
     rows: int
     stated: bool
-    outside: bool
+    outside: bool  # whether no library has it
     effects: tuple[Concealed, ...]
-    rough: tuple[Concealed, ...]
-    also_allowed: tuple[Name, ...]
-    background: dict[str, dict[str, float]]
-    zeros: Array
-    left_nm: Array
+    rough: tuple[Concealed, ...]  # what a rough arm has everywhere; nobody is asked to name it
+    also_allowed: tuple[Name, ...]  # names that are no wrong ones besides those of both
+    background: dict[str, dict[str, float]]  # by joint, the friction and rotors of this arm
+    zeros: Array  # (n,) rad, of links' encoders beside their motors'; empty where links have none
+    left_nm: Array  # (n,) RMS that the truth itself leaves on the test path; left_moving_nm: where the joint moves
     left_moving_nm: Array
-    test: pd.DataFrame
+    test: pd.DataFrame  # the test path with its torques, and where each joint moves
 
 
 def unseal(archive: Path) -> dict[str, MotionTruth]:
-    """The truths of an archive, by world.
-
-    Raises:
-        InputError: it holds something else.
-    """
+    """The truths of an archive, by world. Raises InputError: it holds something else."""
     return {world: _truth(world, content, test) for world, (content, test) in unsealed(archive).items()}
 
 

@@ -14,11 +14,7 @@ from armscope.recordings.importing.pieces import Piece
 
 
 def required(piece: Piece, columns: tuple[Column, ...]) -> Array:
-    """(N, columns) numbers that every row must have.
-
-    Raises:
-        InputError: a row has none.
-    """
+    """(N, columns) numbers that every row must have. Raises InputError: a row has none."""
     values = piece.stack(columns)
     missing = np.argwhere(np.isnan(values))
     if len(missing):

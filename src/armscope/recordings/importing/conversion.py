@@ -115,7 +115,7 @@ class Converter:
         table |= as_columns([f"q{j + 1}_rad" for j in range(len(columns.angles.columns))], self._angles(piece))
         table |= self._context(piece, runs)
         if columns.reflectors is not None:
-            return by_reflector(piece, columns.reflectors, pd.DataFrame(table))
+            return _by_reflector(piece, columns.reflectors, pd.DataFrame(table))
         return pd.DataFrame(table | self._measured(piece))
 
     def _ids(self, piece: Piece) -> list[str]:
@@ -233,20 +233,9 @@ class Converter:
         return context
 
 
-def by_reflector(piece: Piece, reflectors: Reflectors, table: pd.DataFrame) -> pd.DataFrame:
-    """A row for each reflector that was seen, those of one raw row together.
-
-    Args:
-        piece: N raw rows.
-        reflectors: where their points stand.
-        table: (N,) what else is known of the rows.
-
-    Returns:
-        The rows with their points, mm, and the reflectors' names.
-
-    Raises:
-        InputError: a point is there in part, or too far to be one, or a row shows no reflector.
-    """
+def _by_reflector(piece: Piece, reflectors: Reflectors, table: pd.DataFrame) -> pd.DataFrame:
+    """A row for each reflector that was seen, those of one raw row together; ``table`` is what else is known of
+    rows. Raises InputError: a point is there in part, or too far to be one, or a row shows no reflector."""
     seen = []
     for name, columns in reflectors.targets.items():
         points = whole(piece, columns, "a point") * UNITS[reflectors.unit]

@@ -2,42 +2,76 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import yaml
 
 from armscope.core.inputs import InputError, validate
 from armscope.core.types import Array
 from armscope.recordings.importing.constants import DRAFT, LIMITS
-from armscope.recordings.importing.draft_motors import (
+from armscope.recordings.importing.draft_columns import (
     BESIDE,
+    FILL_IN,
     JOINT,
+    filled_in,
     in_a_row,
     largest_of,
     motor_columns,
     numbered_columns,
+    points_of,
+    unit_of,
     ur_joints,
     words_of,
 )
 from armscope.recordings.importing.draft_orientations import orientation_lines
-from armscope.recordings.importing.draft_points import points_of
-from armscope.recordings.importing.draft_times import time_stamps
-from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
-from armscope.recordings.importing.first_table import (
-    ForeignTable,
-    column_list,
-    first_table,
-    printable,
-    quoted,
-)
+from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.formats import TextFormat
 from armscope.recordings.importing.mapping import Mapping
 from armscope.recordings.importing.stated_units import ANGLE_UNITS, LENGTH_UNITS, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows
 from armscope.recordings.other_formats import by_hand
+
+WORDS = {
+    "time", "timestamp", "datetime", "date", "clock", "zeit", "zeitstempel", "uhrzeit", "datum", "heure", "horodatage",
+    "hora", "fecha", "ora", "data",
+}  # fmt: skip
+"""Of which one at least stands in the column's name."""
+DAYS = ("%Y-%m-%d", "%d.%m.%Y", "%d.%m.%y", "%Y/%m/%d", "%d/%m/%Y", "%m/%d/%Y", "%d-%m-%Y", "%Y%m%d")
+CLOCKS = ("%H:%M:%S", "%H:%M:%S.%f", "%H:%M:%S,%f", "%H:%M", "%I:%M:%S %p", "%H:%M:%S%z", "%H:%M:%S.%f%z")
+FORMATS = (*("".join(parts) for parts in itertools.product(DAYS, (" ", "T", ", "), CLOCKS)), *CLOCKS, *DAYS)
+"""How a stamp is written: a day and a clock's time, or one of these. Where a day and a month look alike, the day is
+first."""
+
+
+def _time_stamps(table: ForeignTable, taken: Collection[int]) -> str:
+    """The mapping's line of a column of time stamps; "" where none reads as stamps that rise."""
+    for column, name in enumerate(table.names):
+        if column not in taken and WORDS & set(words_of(name)):
+            written = _format_of([row[column].strip() for row in table.cells])
+            if written:
+                why = "guessed by name: time stamps that rise, seconds from the first one on"
+                return f"  time: {{column: {quoted(name)}, format: {quoted(written)}}}   # {why}"
+    return ""
+
+
+def _format_of(cells: list[str]) -> str:
+    """The format in which all cells that are not empty are stamps that rise; "" for none."""
+    filled = pd.Series([cell for cell in cells if cell], dtype=object)
+    if len(filled) < 2 or len(filled) < len(cells) / 2:
+        return ""
+    for written in FORMATS:
+        if pd.isna(pd.to_datetime(filled.iloc[:1], format=written, errors="coerce", utc=True)).any():
+            continue
+        stamps = pd.to_datetime(filled, format=written, errors="coerce", utc=True)
+        if stamps.notna().all() and stamps.is_monotonic_increasing and stamps.iloc[-1] > stamps.iloc[0]:
+            return written
+    return ""
+
 
 RUNS = r"(run|session|series|campaign|lauf|serie|messreihe|sitzung)([\s_]?(id|name|no|nr|number))?"
 LOADS = "payload|load|last|nutzlast|traglast|charge|charge utile|carga|carga útil|carga util|carico|负载"
@@ -48,11 +82,8 @@ SCALARS = {
 
 
 def draft_mapping(path: Path | str) -> str:
-    """The text of a mapping.yaml that reads this file, with a comment on every guess.
-
-    Raises:
-        InputError: it is no text table, or no columns look like motor angles and points (or a motion's torques).
-    """
+    """The text of a mapping.yaml that reads this file, with a comment on every guess. Raises InputError: it is no
+    text table, or no columns look like motor angles and points (or a motion's torques)."""
     path = Path(path)
     table = first_table(path)
     columns = list(_guess_columns(path, table))
@@ -179,7 +210,7 @@ def _further(table: ForeignTable, n_motors: int, taken: set[int], of_one_point: 
             continue
         if match is not None and (what == "target" or np.isfinite(table.values[:, match]).any()):
             yield f"  {line.format(quoted(table.names[match]))}   # guessed by name"
-        elif what == "time" and (stamps := time_stamps(table, taken)):
+        elif what == "time" and (stamps := _time_stamps(table, taken)):
             yield stamps
 
 

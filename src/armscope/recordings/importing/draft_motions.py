@@ -12,16 +12,17 @@ import yaml
 from armscope.core.inputs import validate
 from armscope.recordings.importing.constants import DRAFT
 from armscope.recordings.importing.draft import HEAD, RUNS, SCALARS, draft_mapping, format_lines
-from armscope.recordings.importing.draft_motors import BESIDE, in_a_row, motor_columns, numbered_columns
-from armscope.recordings.importing.draft_points import points_of
-from armscope.recordings.importing.draft_units import FILL_IN, filled_in, unit_of
-from armscope.recordings.importing.first_table import (
-    ForeignTable,
-    column_list,
-    first_table,
-    printable,
-    quoted,
+from armscope.recordings.importing.draft_columns import (
+    BESIDE,
+    FILL_IN,
+    filled_in,
+    in_a_row,
+    motor_columns,
+    numbered_columns,
+    points_of,
+    unit_of,
 )
+from armscope.recordings.importing.first_table import ForeignTable, column_list, first_table, printable, quoted
 from armscope.recordings.importing.motions import MotionMapping
 from armscope.recordings.importing.stated_units import MOTION_ANGLES, SPEED_UNITS, TORQUE_UNITS
 from armscope.recordings.numbered_points import number_the_rows
@@ -40,10 +41,7 @@ MOTION_RUNS = rf"{RUNS}|bahn|path|trajectory|motion|fahrt"
 
 def draft_any_mapping(path: Path | str) -> str:
     """The text of a mapping.yaml that reads this file, of points or of a motion, with a comment on every guess.
-
-    Raises:
-        InputError: it is no text table, or its columns look like neither.
-    """
+    Raises InputError: it is no text table, or its columns look like neither."""
     path = Path(path)
     table = first_table(path)
     columns = list(_of_a_motion(table))

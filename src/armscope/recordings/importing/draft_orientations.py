@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from armscope.recordings.importing.constants import DRAFT
-from armscope.recordings.importing.draft_units import unit_of
+from armscope.recordings.importing.draft_columns import unit_of
 from armscope.recordings.importing.first_table import ForeignTable, column_list
 from armscope.recordings.importing.stated_units import ANGLE_UNITS
 
@@ -31,15 +31,8 @@ COMPUTED = "the controller computed it"
 
 
 def orientation_lines(table: ForeignTable, taken: Collection[int]) -> Iterator[str]:
-    """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it.
-
-    Args:
-        table: the table.
-        taken: columns that are something else: motor angles and the point.
-
-    Yields:
-        At most one line.
-    """
+    """The mapping's line of an orientation, or a comment with one; nothing where no columns look like it. ``taken``:
+    columns that are something else: motor angles and the point."""
     free = {name.strip().lower(): column for column, name in enumerate(table.names) if column not in taken}
     named = _quaternion(table, free)
     if columns := named or _numbered_quaternion(table, free):

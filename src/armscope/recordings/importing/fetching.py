@@ -46,11 +46,8 @@ class Source(Strict):
 
 
 def load_source(path: Path | str) -> Source:
-    """Read source.yaml.
-
-    Raises:
-        InputError: a key or value that can't be, or neither files nor a reason for having none.
-    """
+    """Read source.yaml. Raises InputError: a key or value that can't be, or neither files nor a reason for having
+    none."""
     source = load(Source, path)
     if bool(source.files) == bool(source.not_importable):
         rule = "a source has `files`, or says in `not_importable` why it has none"

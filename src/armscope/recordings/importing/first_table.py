@@ -49,29 +49,17 @@ class TableCut:
 
 @dataclass(frozen=True, eq=False)
 class ForeignTable:
-    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is).
+    """The first lines of a foreign table: how they are cut, their names, their numbers (NaN where none is)."""
 
-    Attributes:
-        cut: how lines become cells, and cells numbers.
-        skip: lines above the header, or above the first row where there is none.
-        names: of the columns, or their numbers.
-        header: whether the first line names the columns.
-        values: (rows, columns).
-        cells: the words that the numbers were read from.
-        units: the cells of a line of units below the header; empty where there is none.
-        file: the table's.
-        groups: what a line above the names says is the unit of each column's group; empty where there is none.
-    """
-
-    cut: TableCut
-    skip: int
-    names: list[str]
-    header: bool
-    values: Array
-    cells: list[list[str]]
-    units: list[str]
-    file: Path
-    groups: list[str]
+    cut: TableCut  # how lines become cells, and cells numbers
+    skip: int  # lines above the header, or above the first row where there is none
+    names: list[str]  # of the columns, or their numbers
+    header: bool  # whether the first line names the columns
+    values: Array  # (rows, columns)
+    cells: list[list[str]]  # the words that the numbers were read from
+    units: list[str]  # the cells of a line of units below the header; empty where there is none
+    file: Path  # the table's
+    groups: list[str]  # what a line above the names says is the unit of each column's group; empty where there is none
 
     def words(self, columns: Sequence[int]) -> list[str]:
         """What stands in some columns in place of a number and holds no digit, "---" or "n/a", in order."""
@@ -81,11 +69,7 @@ class ForeignTable:
 
 
 def first_table(path: Path) -> ForeignTable:
-    """The first lines of a delimited text table.
-
-    Raises:
-        InputError: it is no text table, or has no rows.
-    """
+    """The first lines of a delimited text table. Raises InputError: it is no text table, or has no rows."""
     start = start_of(path, "a table of recordings")
     if is_workbook(start):
         return _of_cells(path, *_first_sheet(path))

@@ -189,11 +189,8 @@ class Columns(Groups):
         return [*found, *(turned.columns if turned is not None else ())]
 
     def check_beside(self, known: set[str], of_run: str) -> None:
-        """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files.
-
-        Raises:
-            ValueError: no file beside has this name.
-        """
+        """Columns called "name:column" and ``row_of`` must name a file beside, where there are such files. Raises
+        ValueError: no file beside has this name."""
         wanted = {column.partition(":")[0] for column in self.measured() if isinstance(column, str) and ":" in column}
         wanted = wanted if known else set()
         if self.id is not None and self.id.row_of is not None:
@@ -237,11 +234,7 @@ class Run(RunFiles):
 
 
 def refuse_runs_of_one_name(runs: Sequence[RunFiles]) -> None:
-    """Make sure that runs have different names.
-
-    Raises:
-        ValueError: two have the same.
-    """
+    """Make sure that runs have different names. Raises ValueError: two have the same."""
     names = [run.run for run in runs]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:

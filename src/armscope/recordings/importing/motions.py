@@ -63,11 +63,7 @@ class MotionColumns(Groups):
     run: RunColumn | None = None
 
     def check(self, of_run: str) -> None:
-        """Make sure that nothing needed is missing.
-
-        Raises:
-            ValueError: it is.
-        """
+        """Make sure that nothing needed is missing. Raises ValueError: it is."""
         if self.time is None or self.positions is None:
             raise ValueError(f"a motion needs `time` and `positions`{of_run}")
         if (self.torque is None) == (self.current is None):
@@ -142,10 +138,7 @@ class MotionConverter:
         effort = columns.torque or columns.current
         assert effort is not None
         runs = runs_of_rows(piece, columns.run, self.run)
-        values = [
-            self.clock.time(piece, columns.time, runs)[:, None],
-            _scaled(piece, columns.positions),
-        ]
+        values = [self.clock.time(piece, columns.time, runs)[:, None], _scaled(piece, columns.positions)]
         if columns.speeds is not None:
             values.append(_scaled(piece, columns.speeds))
         values.append(required(piece, effort.columns) * effort.scale)
@@ -165,10 +158,7 @@ def _scaled(piece: Piece, group: MotorPositions | Velocities) -> Array:
 
 
 def load_any_mapping(path: Path | str) -> Mapping | MotionMapping:
-    """Read mapping.yaml of points or, where it says `table: motions`, of motions.
-
-    Raises:
-        InputError: a key, unit or group that can't be; it names the place, the rule and the nearest known key.
-    """
+    """Read mapping.yaml of points or, where it says `table: motions`, of motions. Raises InputError: a key, unit or
+    group that can't be; it names the place, the rule and the nearest known key."""
     content = read_keys(path)
     return validate(MotionMapping, content, path) if "table" in content else validate(Mapping, content, path)

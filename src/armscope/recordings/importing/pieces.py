@@ -54,11 +54,8 @@ class BesideFile:
         self.held = [piece for piece in self.held if piece.numbers_of_rows[-1] >= row]
 
     def check_all_used(self, rows_read: int) -> None:
-        """After the first file's last row: none may be left over here.
-
-        Raises:
-            InputError: the two files have unequal numbers of rows.
-        """
+        """After the first file's last row: none may be left over here. Raises InputError: the two files have unequal
+        numbers of rows."""
         self.held = []
         for piece in self.coming:
             self.rows_read += len(piece)

@@ -163,11 +163,8 @@ def _why_ragged(style: TextFormat, row: list[str], width: int) -> str:
 
 
 def read_matrix(path: Path, style: MatlabFormat) -> MatrixRows:
-    """A matrix of a MATLAB file.
-
-    Raises:
-        InputError: no such file or variable, several to choose from, or not a real matrix.
-    """
+    """A matrix of a MATLAB file. Raises InputError: no such file or variable, several to choose from, or not a real
+    matrix."""
     try:
         content = scipy.io.loadmat(at_hand(path))
     except NotImplementedError as error:  # what scipy says of version 7.3, which is HDF5

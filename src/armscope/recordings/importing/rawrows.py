@@ -21,23 +21,14 @@ NO_VALUE = "Declare it under `missing` if it stands for no value."
 
 @dataclass(frozen=True, eq=False)
 class TextRows:
-    """Some rows of a delimited file.
-
-    Attributes:
-        source: the file.
-        names: its header; empty where it has none.
-        numbers_of_rows: (N,) rows of the file without its header, counted from 1.
-        lines: (N,) lines of the file, for messages.
-        cells: N rows of words.
-        format: how the file writes numbers.
-    """
+    """Some rows of a delimited file."""
 
     source: Path
-    names: tuple[str, ...]
-    numbers_of_rows: Indices
-    lines: Indices
-    cells: list[list[str]]
-    format: CellsFormat
+    names: tuple[str, ...]  # its header; empty where it has none
+    numbers_of_rows: Indices  # (N,) rows of the file without its header, counted from 1
+    lines: Indices  # (N,) lines of the file, for messages
+    cells: list[list[str]]  # N rows of words
+    format: CellsFormat  # how the file writes numbers
 
     def __len__(self) -> int:
         return len(self.cells)

@@ -200,7 +200,11 @@ def _convert_run(mapping: AnyMapping, run: AnyRun, paths: dict[str, Path], repor
     beside.check_all_used(report.rows_read)
     if report.rows_written == 0:
         raise InputError(
-            paths[run.file], f"run {run.run}", "no row left", "at least one row is needed", _what_left_nothing(report)
+            paths[run.file],
+            f"run {run.run}",
+            "no row left",
+            "at least one row is needed",
+            " ".join(f"Left out, {out.rule}: {len(out.rows)}." for out in report.left_out),
         )
 
 
@@ -210,8 +214,3 @@ def _converter(mapping: AnyMapping, run: AnyRun) -> Converter | MotionConverter:
     assert isinstance(mapping, MotionMapping)
     assert isinstance(run, MotionRun)
     return MotionConverter(mapping.columns.with_own(run.columns), run.run)
-
-
-def _what_left_nothing(report: RunReport) -> str:
-    """Which row filter left nothing."""
-    return " ".join(f"Left out, {out.rule}: {len(out.rows)}." for out in report.left_out)

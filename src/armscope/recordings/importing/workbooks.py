@@ -25,11 +25,8 @@ def is_workbook(start: bytes) -> bool:
 
 
 def sheets_of(path: Path) -> list[str]:
-    """Names of a workbook's sheets that hold cells, charts left out.
-
-    Raises:
-        InputError: it is no workbook, or too large a one.
-    """
+    """Names of a workbook's sheets that hold cells, charts left out. Raises InputError: it is no workbook, or too
+    large a one."""
     return [sheet.title for sheet in _opened(path).worksheets]
 
 
@@ -54,7 +51,10 @@ def sheet_rows(path: Path, name: str | None, decimal: str) -> Iterator[tuple[int
         raise InputError(path, "format.sheet", name or "no sheet", "the workbook has no sheet of this name", cure)
     sheet = book[name or names[0]]
     sheet.reset_dimensions()  # what some programs write there is not the sheet's size
-    found = [(number, [_word(cell, decimal) for cell in row]) for number, row in _numbered(sheet)]
+    found = [
+        (number, [_word(cell, decimal) for cell in row])
+        for number, row in enumerate(sheet.iter_rows(values_only=True), start=1)
+    ]
     width = max((at + 1 for _, row in found for at, word in enumerate(row) if word), default=0)
     if not width:
         rule, cure = "a sheet with rows of values is needed", "Name another one as `sheet`: " + ", ".join(names) + "."
@@ -63,10 +63,6 @@ def sheet_rows(path: Path, name: str | None, decimal: str) -> Iterator[tuple[int
         found.pop()
     for number, row in found:
         yield number, (row + [""] * width)[:width]
-
-
-def _numbered(sheet: Any) -> Iterator[tuple[int, tuple[object, ...]]]:
-    return enumerate(sheet.iter_rows(values_only=True), start=1)
 
 
 def _word(cell: object, decimal: str) -> str:

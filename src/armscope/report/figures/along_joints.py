@@ -10,18 +10,14 @@ from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.recordings.motion import moving
 from armscope.report.colours import AFTER, BEFORE
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.report.svg import Drawing, Panel
 from armscope.robot import chain, position_jacobian
 
 MOST_DOTS = 400
-WIDE, HIGH = 290.0, 190.0
-"""Of one joint's panel, px."""
-MOST_ROWS = 20_000
-"""Running means along the joints need no more rows than this."""
-WINDOWS = 12
-"""The running mean along an angle has so many windows over its range."""
+WIDE, HIGH = 290.0, 190.0  # Of one joint's panel, px
+MOST_ROWS = 20_000  # Running means along the joints need no more rows than this
+WINDOWS = 12  # The running mean along an angle has so many windows over its range
 
 
 def along_joints_figure(subject: Subject) -> Iterator[Drawn]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from armscope.report.figures.arm_picture import draw_arm
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.verdict.schema import Verdict
 
 

@@ -8,8 +8,7 @@ from armscope.core.types import Array
 from armscope.report.colours import INK, QUIET
 from armscope.report.svg import LETTER, Drawing
 
-DISTANCES = np.array([0.06, 0.085, 0.11, 0.14, 0.18, 0.23])
-"""From what is named, in sizes of the arm."""
+DISTANCES = np.array([0.06, 0.085, 0.11, 0.14, 0.18, 0.23])  # From what is named, in sizes of the arm
 ANGLES = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 SIZE, BOLD = 12.0, 14.0
 

@@ -15,18 +15,12 @@ from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, shares_
 from armscope.report.svg import Drawing
 from armscope.robot import Arm
 
-NAMED_SHARE = 0.005
-"""Shares below half a percent get no number."""
-HEIGHT = 430.0
-"""Of the picture, px."""
-MARGIN = 0.19
-"""Room for labels around the arm, in its sizes."""
-SHADOW = "rgba(0, 0, 0, 0.22)"
-"""Over what faces away from the light."""
-HATCHED = 6.0
-"""From one line of a hatch to the next, px."""
-STEPS = np.array([0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0])
-"""Lengths of the scale bar, m."""
+NAMED_SHARE = 0.005  # Shares below half a percent get no number
+HEIGHT = 430.0  # Of the picture, px
+MARGIN = 0.19  # Room for labels around the arm, in its sizes
+SHADOW = "rgba(0, 0, 0, 0.22)"  # Over what faces away from the light
+HATCHED = 6.0  # From one line of a hatch to the next, px
+STEPS = np.array([0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0])  # Lengths of the scale bar, m
 
 
 def draw_arm(arm: Arm, motor_angles: Array, shares: Mapping[str, float], nameless: Collection[str] = ()) -> Drawing:

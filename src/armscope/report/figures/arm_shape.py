@@ -10,37 +10,27 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.robot import Arm, Chain, chain
-from armscope.robot.centre_line import centre_lines
+from armscope.robot.kinematics import centre_lines
 
-MOST_POSES = 30
-"""So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen."""
+MOST_POSES = 30  # So many recorded poses, spread evenly over the rows, are looked at when the pose to draw is chosen
 AZIMUTHS = np.radians(np.arange(0, 360, 15))
 ELEVATION = np.radians(18)
-STATIONS = 24
-"""Points along the centre line at which it is seen whether the arm lies over itself."""
-APART = 0.12
-"""Pieces of the arm that are farther apart than this share of the picture don't hide each other."""
+STATIONS = 24  # Points along the centre line at which it is seen whether the arm lies over itself
+APART = 0.12  # Pieces of the arm that are farther apart than this share of the picture don't hide each other
 
 
 @dataclass(frozen=True, eq=False)
 class ArmShape:
-    """An arm in one pose; base axes turned so that z points against gravity, m.
+    """An arm in one pose; base axes turned so that z points against gravity, m."""
 
-    Attributes:
-        parts: (location, (K, 3) points of its centre line) from the base to the tool: "base", "link 1", ..., "tool".
-        centres: (n, 3) where each joint's disc is drawn: on its axis, moved along it where two would coincide.
-        axes: (n, 3) directions of the joints' axes.
-        tool: (3,) tool point.
-        rod: crank and rod of a parallelogram, (4, 3): shoulder, crank pin, rocker pin, elbow; None for other arms.
-        to_world: (3, 3) turns base axes into the drawing's.
-    """
-
+    # (location, (K, 3) points of its centre line) from the base to the tool: "base", "link 1", ..., "tool"
     parts: tuple[tuple[str, Array], ...]
-    centres: Array
-    axes: Array
-    tool: Array
+    centres: Array  # (n, 3) where each joint's disc is drawn: on its axis, moved along it where two would coincide
+    axes: Array  # (n, 3) directions of the joints' axes
+    tool: Array  # (3,) tool point
+    # crank and rod of a parallelogram, (4, 3): shoulder, crank pin, rocker pin, elbow; None for other arms
     rod: Array | None
-    to_world: Array
+    to_world: Array  # (3, 3) turns base axes into the drawing's
 
     @property
     def points(self) -> Array:
@@ -93,7 +83,6 @@ def typical_pose(arm: Arm, motor_angles: Array) -> tuple[int, View]:
     """The recorded row and the view in which the arm's joints lie farthest apart, and nothing over itself.
 
     Args:
-        arm: the arm.
         motor_angles: (N, m) rad.
 
     Returns:

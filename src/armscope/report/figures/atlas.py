@@ -15,10 +15,8 @@ from armscope.verdict.diagnosis import Atlas, Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.sentences import atlas_column
 
-WORTH_A_NUMBER = 0.03
-"""Cells below this share are coloured but carry no number."""
-LEAST_END = 0.05
-"""The colours' end is never below this share."""
+WORTH_A_NUMBER = 0.03  # Cells below this share are coloured but carry no number
+LEAST_END = 0.05  # The colours' end is never below this share
 
 
 @dataclass(frozen=True)

@@ -21,18 +21,15 @@ RUN_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 BIN_DEG = 10
 MOST_POINTS = 4000
 FARTHEST_LIMIT_DEG = 400
-ONE_POINT = 2e-3
-"""Points within so many metres of each other are one point in the figure."""
+ONE_POINT = 2e-3  # Points within so many metres of each other are one point in the figure
 
-VISIBLE = 0.01
-"""Share of the workspace below which points can't be told apart in the figure."""
+VISIBLE = 0.01  # Share of the workspace below which points can't be told apart in the figure
 
 
 def draw_check(recordings: Recordings, arm: Arm | None = None) -> Figure:
     """Points from above and from the side by run, and how many rows each joint has in every 10 degrees.
 
     Args:
-        recordings: the table.
         arm: its robot: points are then drawn where the nominal arm has them, in its base frame, so that runs with
             different measurement frames can be compared, and joint limits are marked. None draws measured points.
     """
@@ -90,7 +87,7 @@ def _draw_points(panel: Any, runs: list[_Run], across: int, up: int) -> None:
 
 def _style(number: int, run: _Run) -> dict[str, Any]:
     """Dots; a diamond for one point; where earlier runs have the same points rings about theirs."""
-    look = {"marker": "o", "linestyle": "", "color": _colour(number), "markeredgewidth": 0.7}
+    look = {"marker": "o", "linestyle": "", "color": RUN_COLOURS[number % len(RUN_COLOURS)], "markeredgewidth": 0.7}
     if run.shared:
         return look | {"markerfacecolor": "none", "markersize": 1.6 + 1.9 * run.shared}
     if run.still:
@@ -102,10 +99,6 @@ def _key(number: int, run: _Run) -> Line2D:
     style = _style(number, run)
     plain = style | {"alpha": 1.0, "markersize": max(style["markersize"], 4)}
     return Line2D([], [], label=f"run {run.name}" if run.name.isdigit() else run.name, **plain)
-
-
-def _colour(run: int) -> str:
-    return RUN_COLOURS[run % len(RUN_COLOURS)]
 
 
 def _draw_coverage(figure: Figure, panel: Any, recordings: Recordings, arm: Arm | None) -> None:

@@ -13,10 +13,7 @@ from armscope.report.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, leg
 
 def cross_table_figure(table: pd.DataFrame) -> Figure:
     """One panel per trajectory, one row per model: errors predicted to remain, and what the virtual arm really kept.
-
-    Args:
-        table: see `armscope.compensation.closed_loop.cross_table`.
-    """
+    ``table``: see `armscope.compensation.closed_loop.cross_table`."""
     spatial = table[table["axis"] == "3D"]
     trajectories = [name for name in spatial["trajectory"].unique() if name != "identification"]
     models = [NO_MODEL, *(name for name in spatial["model"].unique() if name != NO_MODEL)]
@@ -45,11 +42,8 @@ def cross_table_figure(table: pd.DataFrame) -> Figure:
 
 
 def regions_figure(table: pd.DataFrame) -> Figure:
-    """One panel per model: error against the number of blended regions; the one that cross-validation chose is filled.
-
-    Args:
-        table: see `armscope.paper.outlook.paper_regions`.
-    """
+    """One panel per model: error against the number of blended regions; the one that cross-validation chose is
+    filled. ``table``: see `armscope.paper.outlook.paper_regions`."""
     models = list(table["model"].unique())
     paths = [name for name in table.columns if name.startswith("test") or name == "held out"]
     colours = (GREEN, ORANGE, SKY)

@@ -18,11 +18,7 @@ OTHERS = "figure of others"
 
 
 def draw_compliances(values: pd.DataFrame) -> Figure:
-    """A column per joint and one for the combination that all runs tell best; a line per run; 95 % intervals.
-
-    Args:
-        values: compliances.csv.
-    """
+    """A column per joint and one for the combination that all runs tell best; a line per run; 95 % intervals."""
     shown, runs = list(dict.fromkeys(values["of"])), list(dict.fromkeys(values["run"]))
     with styled():
         figure, panels = plt.subplots(1, len(shown), figsize=(8.4, 1.6 + 0.34 * len(runs)), sharey=True)

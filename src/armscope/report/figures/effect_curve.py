@@ -7,36 +7,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from armscope.core.numerals import shown_unit
 from armscope.core.types import Array
+from armscope.core.words import shown_unit
 from armscope.report.colours import AFTER, OUTLINE, PALE
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.report.svg import Drawing, Panel
 from armscope.verdict.effects import INTERVAL, Curve, FoundEffect
 
-WIDTH, HEIGHT = 440.0, 220.0
-"""Of a curve's picture, px."""
+WIDTH, HEIGHT = 440.0, 220.0  # Of a curve's picture, px
 
 
 @dataclass(frozen=True, eq=False)
 class DrawnCurve:
-    """One curve to draw.
+    """One curve to draw."""
 
-    Attributes:
-        title: where it is and what it follows.
-        x, value, low, high: (K,) the driver, the curve and its 95 % band, in the units that the labels name.
-        x_label, y_label: with units.
-        rows: (N,) the driver at the recorded rows, drawn as ticks at the bottom; None leaves them out.
-    """
-
-    title: str
+    title: str  # where it is and what it follows
+    # x, value, low, high: (K,) the driver, the curve and its 95 % band, in the units that the labels name
     x: Array
     value: Array
     low: Array
     high: Array
     x_label: str
     y_label: str
+    # (N,) the driver at the recorded rows, drawn as ticks at the bottom; None leaves them out
     rows: Array | None = None
 
 

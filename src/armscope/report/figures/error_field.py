@@ -23,45 +23,29 @@ from armscope.report.colours import NOTHING, SHARES, SIGNED, between, darker, sc
 from armscope.report.figures.arm_shape import arm_shape, shares_by_place, typical_pose, upright
 from armscope.robot import Arm, Chain, chain
 
-MOST_ROWS = 12_000
-"""A page carries no more; of longer tables so many rows, spread evenly, and all suspects."""
+MOST_ROWS = 12_000  # A page carries no more; of longer tables so many rows, spread evenly, and all suspects
 SHADES = 33
-FAINTEST = 0.14
-"""Where the scale of sizes starts: dots must be seen on paper."""
+FAINTEST = 0.14  # Where the scale of sizes starts: dots must be seen on paper
 NAMED_SHARE = 0.005
 
 
 @dataclass(frozen=True, eq=False)
 class ErrorField:
-    """N points of an arm and the errors there.
+    """N points of an arm and the errors there."""
 
-    Attributes:
-        points_mm: (N, 3) tool points, base axes.
-        motor_angles: (N, m) rad: the pose that the arm takes when a point is chosen.
-        ids: (N) what the rows are called.
-        groups: (N) the trajectory or run of each row.
-        group_word: "trajectory" or "run".
-        row_word: "point" or "row".
-        stages: (name, what the error is) in the order in which they are offered: ("before", "measured minus nominal").
-        errors_mm: by model, for each stage (N, 3) base axes; NaN where there is no number.
-        missing: why a row may have no number.
-        paths: groups whose rows follow each other as a path.
-        suspects: why a row is no good, by row number from 0.
-        shares: of the mismatch by location; colours of the arm.
-    """
-
-    points_mm: Array
-    motor_angles: Array
-    ids: Sequence[str]
-    groups: Sequence[str]
+    points_mm: Array  # (N, 3) tool points, base axes
+    motor_angles: Array  # (N, m) rad: the pose that the arm takes when a point is chosen
+    ids: Sequence[str]  # (N) what the rows are called
+    groups: Sequence[str]  # (N) the trajectory or run of each row
     group_word: str
     row_word: str
+    # (name, what the error is) in the order in which they are offered: ("before", "measured minus nominal")
     stages: Sequence[tuple[str, str]]
-    errors_mm: Mapping[str, Sequence[Array]]
-    missing: str = "not known"
-    paths: Sequence[str] = ()
-    suspects: Mapping[int, str] = field(default_factory=dict)
-    shares: Mapping[str, float] = field(default_factory=dict)
+    errors_mm: Mapping[str, Sequence[Array]]  # by model, for each stage (N, 3) base axes; NaN where there is no number
+    missing: str = "not known"  # why a row may have no number
+    paths: Sequence[str] = ()  # groups whose rows follow each other as a path
+    suspects: Mapping[int, str] = field(default_factory=dict)  # why a row is no good, by row number from 0
+    shares: Mapping[str, float] = field(default_factory=dict)  # of the mismatch by location; colours of the arm
 
 
 def turnable(arm: Arm, shown: ErrorField) -> Markup:

@@ -13,16 +13,12 @@ from armscope.report.style import styled
 from armscope.verdict.wording import plain
 
 MOST_CAUSES, MOST_LABELS = 30, 60
-WORDS_PT = 9
-"""As high as the words of the page around it."""
+WORDS_PT = 9  # As high as the words of the page around it
 
 
 def fleet_figure(causes: pd.DataFrame) -> Figure:
-    """Size at the tool of the most frequent causes, arms grouped by type.
-
-    Args:
-        causes: of `armscope.fleet.summary.causes_of_arms`.
-    """
+    """Size at the tool of the most frequent causes, arms grouped by type. ``causes``: of
+    `armscope.fleet.summary.causes_of_arms`."""
     told = causes[~causes["minor"].astype(bool)]
     often = told["cause"].value_counts().index[:MOST_CAUSES]
     label = told["type"] + "  " + told["arm"] + " " + told["date"] + " " + told["run"]

@@ -13,14 +13,13 @@ from matplotlib.figure import Figure
 from armscope.comparison import Change, Comparison, Valued
 from armscope.comparison.result import moments_of
 from armscope.core.inputs import spelt_out
-from armscope.core.numerals import shown_unit
+from armscope.core.words import shown_unit
 from armscope.verdict.effects import INTERVAL
 
 MOST_PANELS = 8
 ACROSS, LONGEST, LETTERS, OF_A_NUMBER = 60, 28, 60, 18
 """Letters that stand beside each other under the panels, of one name, in a line of a title and of a number's name."""
-LINE_INCHES = 0.19
-"""How high such a line is."""
+LINE_INCHES = 0.19  # How high such a line is
 COLUMNS = [
     "recording", "effect", "location", "parameter", "unit", "value", "stderr", "since_first", "since_first_stderr",
 ]  # fmt: skip

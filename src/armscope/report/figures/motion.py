@@ -18,20 +18,16 @@ from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
 from armscope.verdict.effects import INTERVAL
 
-WIDE, HIGH = 500.0, 200.0
-"""Of one joint's picture, px."""
+WIDE, HIGH = 500.0, 200.0  # Of one joint's picture, px
 SMALL, LOW = 330.0, 165.0
 """Of a picture of which three stand beside each other, px; what is left is as high as the wide ones."""
-FEW = 2
-"""Joints up to which a picture has the width of half a page."""
+FEW = 2  # Joints up to which a picture has the width of half a page
 MOST_ROWS, MOST_DOTS = 450, 500
-BEYOND = 1.6
-"""A simulated torque is drawn up to so many times the measured ones' range."""
+BEYOND = 1.6  # A simulated torque is drawn up to so many times the measured ones' range
 DASH = "5 4"
 TRACE = (Key(MEASURED, "measured", "wide"), Key(BEFORE, "as stated", "dashed"), Key(AFTER, "corrected"))
 LEFT = (Key(BEFORE, "friction only"), Key(AFTER, "with causes"))
-FRICTION = (Key(QUIET, "rows", "dots"), Key(AFTER, "model"))
-"""What the colours of each kind of picture stand for."""
+FRICTION = (Key(QUIET, "rows", "dots"), Key(AFTER, "model"))  # What the colours of each kind of picture stand for
 
 
 def trace_figures(subject: MotionSubject) -> Iterator[Drawn]:

@@ -9,24 +9,18 @@ import numpy as np
 from armscope.core.types import Array
 from armscope.report.colours import AFTER, BEFORE, INK, PAPER, QUIET
 from armscope.report.figures.arm_shape import ArmShape, View, arm_shape, view_from
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.report.svg import Drawing
 from armscope.robot import Arm
 
 MOST_POSES = 8
 ELEVATION = np.radians(12)
-WIDE = 210.0
-"""Of one pose's picture, px."""
+WIDE = 210.0  # Of one pose's picture, px
 
 
 def draw_poses(arm: Arm, motor_angles: Array) -> Drawing:
     """Small drawings of the arm in each pose (at most `MOST_POSES`), each seen from its side, all to one scale.
-
-    Args:
-        arm: the arm.
-        motor_angles: (K, m) rad, K >= 1.
-    """
+    ``motor_angles``: (K, m) rad, K >= 1."""
     shapes = [arm_shape(arm, angles) for angles in motor_angles[:MOST_POSES]]
     views = [_from_the_side(shape) for shape in shapes]
     corners = np.vstack([view.flat(shape.points) for view, shape in zip(views, shapes, strict=True)])

@@ -13,10 +13,8 @@ from armscope.report.figures.arm_shape import ArmShape, arm_shape
 from armscope.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from armscope.robot import Arm
 
-LEAST_MM = 1.0
-"""Lengths below this are not drawn."""
-BENT_DEG = (0, 20, -25, 0, 0, 0)
-"""Motor angles under which the parallelogram is open and no piece covers another."""
+LEAST_MM = 1.0  # Lengths below this are not drawn
+BENT_DEG = (0, 20, -25, 0, 0, 0)  # Motor angles under which the parallelogram is open and no piece covers another
 
 
 def arm_with_frames(arm: Arm) -> Figure:

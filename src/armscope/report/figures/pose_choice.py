@@ -14,17 +14,12 @@ from armscope.report.style import BLUE, GREEN, GREY, ORANGE, SKY, legend_above, 
 
 COLOURS = {"chosen": BLUE, "random": ORANGE, "grid": GREEN}
 MARKERS = {"chosen": "D", "random": "o", "grid": "s"}
-OTHERS = SKY, "^"
-"""Colour and marker of choices by other criteria."""
+OTHERS = SKY, "^"  # Colour and marker of choices by other criteria
 
 
 def choice_figure(table: pd.DataFrame, title: str) -> Figure:
     """Three panels: O1 to O5 relative to random poses; error of the parameters; error at poses that took no part.
-
-    Args:
-        table: see `armscope.poses.compare.compare`.
-        title: arm, number of poses, what was chosen for.
-    """
+    ``table``: see `armscope.poses.compare.compare`."""
     with styled():
         figure, (indices, parameters, held_out) = plt.subplots(
             1, 3, figsize=(9.2, 3.1), gridspec_kw={"width_ratios": [1.5, 1, 1]}

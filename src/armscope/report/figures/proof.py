@@ -31,8 +31,7 @@ from armscope.report.style import (
 )
 from armscope.verdict.effects import UNKNOWN
 
-HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}
-"""Colour and marker of worlds with fixed and with fresh seeds."""
+HALVES = {"fixed": (GREY, "s"), "fresh": (BLUE, "o")}  # Colour and marker of worlds with fixed and with fresh seeds
 FOUND = {"seen": (ORANGE, "s", "a mismatch is stated"), "right": (BLUE, "o", "named right")}
 OUTCOME_COLOURS = {
     "named": BLUE, "acceptable": SKY, "listed": GREEN, "located": YELLOW, "missed": VERMILION,
@@ -42,8 +41,7 @@ OUTSIDE_COLOURS = {
     "missed": ORANGE, "misnamed": VERMILION, "failed": BLACK,
 }  # fmt: skip
 SCORES = ("recall", "precision", "location", "coverage")
-NOISE_OF_TEXT = 0.55
-"""Share of a matrix row from which its number stands white on dark."""
+NOISE_OF_TEXT = 0.55  # Share of a matrix row from which its number stands white on dark
 
 
 def draw_all(tables: Path) -> dict[str, Figure]:

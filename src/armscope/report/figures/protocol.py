@@ -20,17 +20,13 @@ MODELS = {
     ORIENTED: (PURPLE, "P", "armscope, orientations too"),
 }  # fmt: skip
 TICKS_MM = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-BESIDE = 0.28
-"""How far below its line the model stands that learned from more than the others."""
+BESIDE = 0.28  # How far below its line the model stands that learned from more than the others
 BEST = "best figure of others"
 
 
 def draw_protocol(tables: Sequence[tuple[str, pd.DataFrame]]) -> Figure:
-    """One line per run; dots are means over the splits, bars their standard deviation.
-
-    Args:
-        tables: (arm, its protocol.csv) in their order.
-    """
+    """One line per run; dots are means over the splits, bars their standard deviation. ``tables``: (arm, its
+    protocol.csv) in their order."""
     runs = [(arm, run, rows) for arm, table in tables for run, rows in table.groupby("run", sort=False)]
     with styled():
         figure, axes = plt.subplots(figsize=(7.6, 1.1 + 0.36 * len(runs)))

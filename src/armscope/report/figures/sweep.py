@@ -16,10 +16,7 @@ MARKERS = "osD^"
 
 def sweeps(table: pd.DataFrame) -> Figure:
     """One panel per sweep: 3D RMS error left over on each set, median and range over seeds, and least squares.
-
-    Args:
-        table: rows of `armscope.paper.sweep.run_variant` for all variants.
-    """
+    ``table``: rows of `armscope.paper.sweep.run_variant` for all variants."""
     names = list(dict.fromkeys(table["sweep"]))
     with styled():
         figure, panels = panel_grid(len(names), 3, (3.4, 2.7))

@@ -13,11 +13,9 @@ from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn
 from armscope.report.svg import Drawing, Panel
 
-WIDE, HIGH = 500.0, 230.0
-"""Of a picture, px."""
+WIDE, HIGH = 500.0, 230.0  # Of a picture, px
 MOST_DOTS = 600
-TWIST = (Key(QUIET, "as recorded"), Key(AFTER, "by the causes"))
-"""What the colours of the dots stand for."""
+TWIST = (Key(QUIET, "as recorded"), Key(AFTER, "by the causes"))  # What the colours of the dots stand for
 
 
 def twist_figures(subject: MotionSubject) -> Iterator[Drawn]:
@@ -29,12 +27,7 @@ def twist_figures(subject: MotionSubject) -> Iterator[Drawn]:
 
 
 def draw_twist(twist: JudgedTwist, torque_unit: str) -> Drawing:
-    """Link less motor, less their zeros' difference, over torque.
-
-    Args:
-        twist: of the joint.
-        torque_unit: N m, or N of a sliding joint.
-    """
+    """Link less motor, less their zeros' difference, over torque. ``torque_unit``: N m, or N of a sliding joint."""
     rows, zero = twist.selected.rows, twist.side.offset.value
     few = spread_evenly(len(rows), MOST_DOTS)
     factor, unit = (1e3, "mrad") if twist.side.unit == "rad" else (1e6, "µm")

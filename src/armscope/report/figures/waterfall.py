@@ -9,25 +9,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.report.colours import AFTER, BEFORE, GAIN, GOOD, INK, LINE, LOSS, OTHERS, PALE, QUIET, Key
-from armscope.report.sectioning import Drawn
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Drawn, Subject
 from armscope.report.svg import LETTER, Drawing, number, ticks
 from armscope.verdict.schema import Verdict, WaterfallStep
 from armscope.verdict.wording import plain
 
-WIDTH, ROW, BAR, LETTERS = 860.0, 27.0, 17.0, 12.0
-"""Of the picture, of a row and of its bar, and of the words, px."""
+WIDTH, ROW, BAR, LETTERS = 860.0, 27.0, 17.0, 12.0  # Of the picture, of a row and of its bar, and of the words, px
 WIDEST_NAMES = 390.0
-NARROW, WITH_NAME = 480.0, 45.0
-"""Of a picture for telephones, and of a row whose name stands above its bar, px."""
-BEYOND = 1.6
-"""Other models' errors are drawn up to so many times the largest of the steps."""
+NARROW, WITH_NAME = 480.0, 45.0  # Of a picture for telephones, and of a row whose name stands above its bar, px
+BEYOND = 1.6  # Other models' errors are drawn up to so many times the largest of the steps
 STEPS = (
     Key(PALE, "what remains", "wide"), Key(GAIN, "what the step took away", "wide"), Key(LOSS, "what it added", "wide"),
     Key(AFTER, "what remains at the end", "wide"),
 )  # fmt: skip
-OTHER_MODELS = Key(OTHERS, "other models", "wide")
-"""What the colours of the bars stand for."""
+OTHER_MODELS = Key(OTHERS, "other models", "wide")  # What the colours of the bars stand for
 
 
 @dataclass(frozen=True)

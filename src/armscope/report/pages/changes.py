@@ -19,8 +19,7 @@ from armscope.comparison.remedies import Remedy, difference_of, remedy_of
 from armscope.comparison.result import moments_in_words, moments_of
 from armscope.comparison.valued import wave_part
 from armscope.core.files import write_json, write_table
-from armscope.core.numerals import shown_unit
-from armscope.core.words import enumerated
+from armscope.core.words import enumerated, shown_unit
 from armscope.report.figures.history import drawn_numbers, history_figure, history_table, told_numbers
 from armscope.report.html import write_page
 from armscope.report.style import save_figure
@@ -36,14 +35,10 @@ IN_WORDS = {
 FILES = (PAGE, DATA, TABLE, FIGURE, "history.svg")
 LEFT_OPEN = "left open by these poses, unlike the difference"
 UNKNOWN = "left open by these poses"
-SMALLEST = 1e-6
-"""Smaller probabilities are not told apart: no test's assumptions hold so far out."""
-MOST_LISTED = 4
-"""Of more recordings the first and the last are named."""
-MOST_SHOTS = 20
-"""Bad shots that the page names."""
-RARE = 0.01
-"""Below it a probability is told as one in so many."""
+SMALLEST = 1e-6  # Smaller probabilities are not told apart: no test's assumptions hold so far out
+MOST_LISTED = 4  # Of more recordings the first and the last are named
+MOST_SHOTS = 20  # Bad shots that the page names
+RARE = 0.01  # Below it a probability is told as one in so many
 
 
 @dataclass(frozen=True)
@@ -76,15 +71,7 @@ class ChangeCard:
 
 
 def write_changes(found: Comparison, folder: Path) -> Path:
-    """Write changes.html, comparison.json, history.csv and, where something changed, history.png and .svg.
-
-    Args:
-        found: the comparison.
-        folder: where to.
-
-    Returns:
-        The page.
-    """
+    """Write changes.html, comparison.json, history.csv and, where something changed, history.png and .svg."""
     history = history_table(found)
     write_json(folder / DATA, found.to_json())
     write_table(folder / TABLE, history)
@@ -255,11 +242,4 @@ def _row(found: Comparison, change: Change, number: Valued) -> ChangedNumber:
 
     plus = "+" if number.difference > 0 else ""
     also = f"{plus}{reading.also}" if reading.also.endswith("°") else ""  # a change of stiffness is no 1 / compliance
-    return ChangedNumber(
-        label,
-        told(before),
-        told(after),
-        f"{plus}{reading.value}",
-        also,
-        reading.interval,
-    )
+    return ChangedNumber(label, told(before), told(after), f"{plus}{reading.value}", also, reading.interval)

@@ -15,13 +15,11 @@ from armscope.core.files import write_table, write_text, yaml_text
 from armscope.physics.geometric import LINK_GEOMETRY
 from armscope.report.colours import page_variables
 from armscope.report.html import render_page
-from armscope.report.sectioning import write_sections
+from armscope.report.sectioning import Subject, write_sections
 from armscope.report.sections.effect_cards import title_of
 from armscope.report.sections.effects import findings
 from armscope.report.sections.registry import SECTIONS
-from armscope.report.subject import Subject
 from armscope.robot.controllers import UR_KINEMATICS, ZEROS_IN_IT
-from armscope.verdict.controllers import corrected_ur_kinematics
 from armscope.verdict.corrections import (
     SETS_A_ZERO,
     as_entered,
@@ -29,18 +27,18 @@ from armscope.verdict.corrections import (
     corrected_origins,
     corrected_rows,
     corrected_table,
+    corrected_ur_kinematics,
     unsettled,
     wrongly_stated,
     zero_offsets,
 )
-from armscope.verdict.diagnosis import Diagnosis
+from armscope.verdict.diagnosis import Diagnosis, promised
 from armscope.verdict.effects import INTERVAL
 from armscope.verdict.entries import angle
 from armscope.verdict.filenames import CURVES
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.payload_place import of_payloads
-from armscope.verdict.promise import promised
 from armscope.verdict.remainder import asked_of_noise
 from armscope.verdict.schema import NO_BAD_SHOTS, ROWS_LEFT_OUT, TOOL_EXCHANGED, Notice
 from armscope.verdict.sentences import another_model, holds, makes_worse, more_than_noise, unusable
@@ -74,11 +72,7 @@ def write_report(verdict: Diagnosis, folder: Path | str) -> Path:
 
 
 def write_work_order(subject: Subject, folder: Path) -> tuple[str, ...]:
-    """The work order as a page, and its numbers as tables; none of a model that makes the error larger.
-
-    Returns:
-        The tables that were written.
-    """
+    """The work order as a page, and its numbers as tables; none of a model that makes the error larger."""
     verdict, another = subject.verdict, another_model(subject.verdict)
     tasks = () if another or makes_worse(verdict) else subject.order.tasks
     numbers = {} if makes_worse(verdict) else _write_numbers(subject, folder)
@@ -134,26 +128,16 @@ def _write_numbers(subject: Subject, folder: Path) -> dict[str, Any]:
         "tables": [
             *(name for name, table in {ZEROS: zeros, **corrected}.items() if changes(table)),
             *([UR_KINEMATICS] if kinematics else []),
-            *([CURVES] if _has_curves(verdict) else []),
+            *([CURVES] if any(effect.nameless and effect.curve is not None for effect in verdict.effects) else []),
         ],
     }
 
 
 def steps_of_rows(rows: pd.DataFrame, order: WorkOrder) -> list[str]:
-    """By D-H row, the step in which it is corrected, and what it must not be done without; "" where it stays.
-
-    Args:
-        rows: stated and corrected.
-        order: of the same verdict.
-    """
+    """By D-H row, the step in which it is corrected, and what it must not be done without; "" where it stays."""
     changed = rows.filter(like="correction_").any(axis=1)
     steps = [order.step_of(f"{LINK_GEOMETRY.name} at link {row}") for row in rows["row"]]
     return [step if changes else "" for step, changes in zip(steps, changed, strict=True)]
-
-
-def _has_curves(verdict: Diagnosis) -> bool:
-    """Whether a step subtracts a curve."""
-    return any(effect.nameless and effect.curve is not None for effect in verdict.effects)
 
 
 def _zeros_in_words(zeros: pd.DataFrame) -> list[tuple[str, str, str]]:
@@ -225,10 +209,7 @@ def _tiles(verdict: Diagnosis) -> list[tuple[str, str, str]]:
     where += ", with those that fit nothing" * promise.of_all
     runs = f" in {len(verdict.runs)} runs" if len(verdict.runs) > 1 else ""
     known = math.isfinite(verdict.noise_mm)
-    tiles = [
-        (millimetres(before), "error now", where),
-        (millimetres(after), "error with the fitted model", where),
-    ]
+    tiles = [(millimetres(before), "error now", where), (millimetres(after), "error with the fitted model", where)]
     if verdict.mismatch is None and not verdict.effects:
         tiles = [(millimetres(before), "error", "RMS per axis once base and tool are placed")]
     return [

@@ -19,8 +19,7 @@ from armscope.report.sectioning import write_sections
 from armscope.report.sections.motion import MOTION_SECTIONS
 from armscope.report.sections.motion_work import error_in_words, motion_work_order
 
-QUIET = ("table", "joint stands", "uneven time")
-"""Kinds of notices that lie folded."""
+QUIET = ("table", "joint stands", "uneven time")  # Kinds of notices that lie folded
 
 
 def write_motion_report(

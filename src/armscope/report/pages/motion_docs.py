@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from armscope.core.files import read_table, write_text
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.motion.library.catalogue import CAUSES
 from armscope.motion.library.twist_catalogue import TWISTS
 from armscope.motion.summary.held_out_errors import ON_HELD_OUT
@@ -15,8 +15,7 @@ from armscope.motion.verdict import read_motion_verdict
 from armscope.report.html import significant
 from armscope.report.pages.readme import filled
 
-MEDIAN = "median"
-"""In the name of the one aim that is no rate."""
+MEDIAN = "median"  # In the name of the one aim that is no rate
 
 
 def fill_motion_pages(docs: Path, proof: Path | None, real: Path | None, of: str) -> None:
@@ -36,7 +35,7 @@ def fill_motion_pages(docs: Path, proof: Path | None, real: Path | None, of: str
     listed = filled(listed, "causes", cause_lines(), causes)
     if proof is not None:
         summary, worlds = read_table(proof / "summary.csv"), read_table(proof / "proof.csv")
-        text = filled(text, "rates", rate_lines(summary, len(worlds), of), measured)
+        text = filled(text, "rates", _rate_lines(summary, len(worlds), of), measured)
     if real is not None:
         text = filled(text, "real", real_lines(real, of), measured)
     write_text(causes, listed)
@@ -49,17 +48,8 @@ def cause_lines() -> list[str]:
     return table_lines(("name", "family", "what it is"), rows)
 
 
-def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
-    """The proof's aims over all of its worlds, with exact intervals.
-
-    Args:
-        summary: of `armscope.proof.motion.rates.summary`.
-        worlds: how many there were.
-        of: what the results are of.
-
-    Returns:
-        Lines of Markdown.
-    """
+def _rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
+    """The proof's aims over all of its worlds, with exact intervals, in Markdown."""
     rows = []
     for row in summary[(summary["seeds"] == "all") & (summary["cases"] > 0)].to_dict("records"):
         if MEDIAN in row["aim"]:
@@ -72,15 +62,7 @@ def rate_lines(summary: pd.DataFrame, worlds: int, of: str) -> list[str]:
 
 
 def real_lines(folder: Path, of: str) -> list[str]:
-    """Held-out errors on real arms, and what was said of them.
-
-    Args:
-        folder: a folder per set.
-        of: what the results are of.
-
-    Returns:
-        Lines of Markdown.
-    """
+    """Held-out errors on real arms, and what was said of them."""
     rows = []
     for path in sorted(folder.glob("*/verdict.json")):
         verdict = read_motion_verdict(path)

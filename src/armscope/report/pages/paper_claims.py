@@ -11,7 +11,7 @@ import pandas as pd
 
 from armscope.paper.claims import AS_PRINTED, IMPROVED, LEAST_SQUARES, SKIPPED
 from armscope.paper.claims.claim import GROUPS, OWN
-from armscope.paper.claims.verdicts import DEPENDS, FAILS, HOLDS, OPEN
+from armscope.paper.claims.table import DEPENDS, FAILS, HOLDS, OPEN
 from armscope.report.html import significant
 
 TAGS = {HOLDS: "holds", FAILS: "fails", DEPENDS: "depends", OPEN: "open", SKIPPED: "open", "not varied": "open"}
@@ -44,12 +44,8 @@ class ClaimRow:
 
 
 def claim_rows(claims: pd.DataFrame, why: pd.DataFrame) -> dict[str, list[ClaimRow]]:
-    """By group, the lines of the table of claims.
-
-    Args:
-        claims: see `armscope.paper.claims.summarise`.
-        why: see `armscope.paper.decisive_errors.reasons`.
-    """
+    """By group, the lines of the table of claims. ``claims``: see `armscope.paper.claims.summarise`; ``why``: see
+    `armscope.paper.decisive_errors.reasons`."""
     reasons = {(row.key, row.method): str(row.sentence) for row in why.itertuples()}
     rows: dict[str, list[ClaimRow]] = {group: [] for group in GROUPS}
     for key, by_method in claims.groupby("key", sort=False):
@@ -185,11 +181,8 @@ def _lower(text: str) -> str:
 
 
 def sensitivity_table(claims: pd.DataFrame, sensitivity: pd.DataFrame) -> tuple[pd.DataFrame, Sequence[str]]:
-    """Share of the robots for which each of the paper's claims is true, by scenario (improved method).
-
-    Returns:
-        (table in per cent, the scenarios in words in the order of its columns).
-    """
+    """Share of the robots for which each of the paper's claims is true, by scenario (improved method). Returns
+    (table in per cent, the scenarios in words in the order of its columns)."""
     own = claims[(claims["group"] == OWN) & (claims["method"] != AS_PRINTED) & claims["share"].notna()]
     wide = (
         sensitivity[sensitivity["method"] != AS_PRINTED]

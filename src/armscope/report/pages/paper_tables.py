@@ -9,8 +9,8 @@ import pandas as pd
 
 from armscope.core.config import Paper, stated_numbers
 from armscope.paper.claims.catalogue import CLAIMS
-from armscope.paper.convergence import iterations_needed
 from armscope.paper.decisive_errors import meaning
+from armscope.paper.method import iterations_needed
 from armscope.paper.printed import AXES, EQUATIONS, TRAJECTORIES, UNCOMPENSATED, printed_texts
 from armscope.report.html import significant
 from armscope.report.text.audit import READING_WORDS, Contradictions, is_thorough
@@ -34,12 +34,8 @@ class Row:
 
 
 def table2_blocks(table: pd.DataFrame, marks: Contradictions) -> list[tuple[str, list[Row]]]:
-    """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and axis.
-
-    Args:
-        table: as `armscope.paper.table2` returns it.
-        marks: cells of the printed table that contradict others.
-    """
+    """The rendered Table 2, its "RMS" read as "rss": by model, one line per quantity, one cell per trajectory and
+    axis. ``table``: as `armscope.paper.beside_printed` returns it."""
     cells = table[table["axis"].isin(AXES)].set_index(["model", "trajectory", "axis"])
     columns = pd.MultiIndex.from_product([TRAJECTORIES, AXES])
     drawn = table["rss_ensemble_median"].notna().any()

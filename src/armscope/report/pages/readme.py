@@ -10,7 +10,7 @@ import pandas as pd
 
 from armscope.core.files import read_table, write_text
 from armscope.core.inputs import InputError
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.paper.printed import AXES, TRAJECTORIES
 from armscope.paper.residuals import SPATIAL
 from armscope.report.html import significant

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from armscope.core.files import write_text
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.physics.registry import EFFECTS
 from armscope.real.constants import PROTOCOL
 from armscope.real.curves import shared
@@ -27,8 +27,7 @@ from armscope.verdict.schema import Verdict
 
 LEVELS = ("nominal", "offsets", "geometric", "compliance")
 TOLD = 3
-AGREED = 0.6
-"""Share of the splits in which a name must be given to be listed."""
+AGREED = 0.6  # Share of the splits in which a name must be given to be listed
 INTRODUCTION = """\
 What armscope says about public recordings of real arms, in the protocol of the figures that stand beside it:
 configurations split at random (70 % to learn from), RMS of the 3D distance in mm on the rest, mean ± standard deviation

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.recordings import Recordings
 from armscope.recordings.motion import moving
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.robot import Arm
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres

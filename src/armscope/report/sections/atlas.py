@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from armscope.report.figures.atlas import atlas_map, attribution
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 
 
 def _context(subject: Subject) -> dict[str, Any]:

@@ -14,16 +14,13 @@ from armscope.core.averages import rms
 from armscope.core.types import Array
 from armscope.report.figures.arm import location_shares
 from armscope.report.figures.error_field import ErrorField, turnable
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.verdict.sentences import holds
 from armscope.verdict.wording import capitalised, millimetres, plain
 
-FINEST = 32_767
-"""Errors are embedded as whole numbers of 16 bits: a part in so many of the largest."""
+FINEST = 32_767  # Errors are embedded as whole numbers of 16 bits: a part in so many of the largest
 
-AFTER = "only beside what gives way: alone it changes nothing"
-"""In place of what curing a wrong payload alone leaves."""
+AFTER = "only beside what gives way: alone it changes nothing"  # In place of what curing a wrong payload alone leaves
 
 
 def _context(subject: Subject) -> dict[str, Any]:

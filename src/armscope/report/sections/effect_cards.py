@@ -91,7 +91,7 @@ def card(effect: FoundEffect, number: int, figure: str = "", masses_stated: bool
         share_width=min(100.0, max(0.0, 100 * effect.share)),
         size=millimetres(effect.rms_at_tool_mm),
         readings=shown,
-        remark=remark_on(effect, len(shown), masses_stated),
+        remark=_remark_on(effect, len(shown), masses_stated),
         shape=effect.curve.description if effect.curve else "",
         evidence=f"{effect.evidence_nats:.{0 if effect.evidence_nats >= 10 else 1}f} nats",
         evidence_words=evidence_in_words(effect.evidence_nats, effect.inclusion),
@@ -156,17 +156,8 @@ def told_parameters(effect: FoundEffect) -> Sequence[Parameter]:
     return [reach(effect.curve)]
 
 
-def remark_on(effect: FoundEffect, shown: int, masses_stated: bool = False) -> str:
-    """What the listed numbers leave open.
-
-    Args:
-        effect: what was found.
-        shown: how many of its numbers are listed.
-        masses_stated: whether the arm's description states its links' masses.
-
-    Returns:
-        A sentence or two.
-    """
+def _remark_on(effect: FoundEffect, shown: int, masses_stated: bool = False) -> str:
+    """What the listed numbers leave open, in a sentence or two."""
     names = [p.name for p in effect.parameters]
     if any(name.startswith(UNKNOWN_MASSES) for name in names):
         if "compliance" in names and masses_stated:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from armscope.core.averages import rms
 from armscope.report.figures.effect_curve import effect_curves, worth_drawing
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.effect_cards import Card, card
-from armscope.report.subject import Subject
-from armscope.verdict.diagnosis import Diagnosis, NextPoses
+from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import FoundEffect
 from armscope.verdict.payload_place import carries_over
 from armscope.verdict.wording import main_and_minor, millimetres, percent
@@ -33,7 +31,7 @@ def findings(verdict: Diagnosis) -> dict[str, Any]:
         "minor_share": percent(sum(effect.share for effect in minor)),
         "background": verdict.background.present,
         "background_share": percent(verdict.background.share),
-        "open_question": _concerns(verdict.next_poses, main),
+        "open_question": verdict.next_poses is not None and any(map(verdict.next_poses.ask_about, main)),
     }
 
 
@@ -56,11 +54,6 @@ def _context(subject: Subject) -> dict[str, Any]:
         "cancel": cancel,
         "families": [(family, percent(share[family]), families[family]) for family in ranked],
     }
-
-
-def _concerns(poses: NextPoses | None, effects: Sequence[FoundEffect]) -> bool:
-    """Whether the two readings that could not be told apart are about one of these effects."""
-    return poses is not None and any(map(poses.ask_about, effects))
 
 
 EFFECTS = Section("effects", "Causes", "What was found", _context, (effect_curves,))

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 
 ENTRIES = (
     ("Mismatch, residual", "Measured tool position minus the position that the model predicts from the joint angles."),

@@ -7,16 +7,14 @@ from typing import Any
 
 from armscope.report.figures.arm import arm_figure
 from armscope.report.figures.arm_picture import NAMED_SHARE
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.effects import findings
-from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.effects import UNKNOWN
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.wording import SMALL, capitalised, main_and_minor, percent, places_in_words
 
-LEAST_AGAINST = 5e-4
-"""Shares as far below zero are told to be so."""
+LEAST_AGAINST = 5e-4  # Shares as far below zero are told to be so
 
 
 @dataclass(frozen=True)

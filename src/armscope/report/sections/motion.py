@@ -11,9 +11,10 @@ import pandas as pd
 
 from armscope.core.inputs import InputError
 from armscope.core.location import Location
+from armscope.core.words import size_of
 from armscope.motion.library.clauses import ALL_JOINTS, amount
 from armscope.motion.summary.left_over import left_over, shares_left_over
-from armscope.motion.verdict import JointBackground
+from armscope.motion.verdict import JointBackground, LinkSide
 from armscope.report.figures.arm_picture import draw_arm
 from armscope.report.figures.atlas import atlas_map
 from armscope.report.figures.motion import (
@@ -25,19 +26,38 @@ from armscope.report.figures.motion import (
     left_figures,
     trace_figures,
 )
-from armscope.report.figures.twist import twist_figures
+from armscope.report.figures.twist import TWIST, twist_figures
 from armscope.report.figures.waterfall import STEPS, Quantity, draw_waterfall
 from armscope.report.motion_subject import MotionSubject
 from armscope.report.sectioning import Drawn, Section
 from armscope.report.sections.motion_cards import motion_card
-from armscope.report.sections.motion_links import links_of_motion
 from armscope.robot.arm import build_arm
 from armscope.verdict.effects import Parameter
 from armscope.verdict.wording import percent
 
+
+def links_of_motion(subject: MotionSubject) -> dict[str, Any]:
+    """Joint by joint: how link and motor lie, and a card for each cause."""
+    return {"sides": [_side(side) for side in subject.verdict.links], "keys": TWIST}
+
+
+def _side(side: LinkSide) -> dict[str, Any]:
+    number = side.joint.removeprefix("joint ")
+    main = [cause for cause in side.causes if not cause.minor]
+    return {
+        "joint": side.joint,
+        "figure": f"twist_{number}",
+        "zero": amount(side.offset, sign=True),
+        "size": size_of(side.rms, side.unit),
+        "left": size_of(side.left, side.unit),
+        "share_left": percent((side.left / side.rms) ** 2 if side.rms else 0.0),
+        "cards": [motion_card(cause, f"link-{number}-{n}") for n, cause in enumerate(main, start=1)],
+        "minor": [cause.title for cause in side.causes if cause.minor],
+    }
+
+
 RELATIVE = Quantity("error on held-out motion, relative to its torque (%)", lambda value: f"{value:.3g} %")
-SEEN = 0.005
-"""Share from which what no cause explains has a line of its own."""
+SEEN = 0.005  # Share from which what no cause explains has a line of its own
 NOT_SEEN = "not seen"
 
 
@@ -123,7 +143,11 @@ def friction_table(subject: MotionSubject) -> dict[str, Any]:
     """Friction and rotor of every joint in words."""
     names = ("offset", "coulomb", "viscous", "inertia")
     joints = subject.verdict.background
-    below = [joint.joint for joint in joints if _below_zero(joint)]
+    below = [
+        joint.joint
+        for joint in joints
+        if any(each.name == "inertia" and each.interval[1] < 0 for each in joint.parameters)
+    ]
     told = [(each, _told(each, names)) for each in joints]
     said = {each for _, row in told for each in row}
     return {
@@ -159,11 +183,6 @@ def value_to_enter(parameter: Parameter) -> str:
     if not parameter.interval[1] < 0:  # also where its error is not known
         return NOT_SEEN
     return signed_amount if parameter.name == "inertia" else f"0 (fitted {signed_amount})"
-
-
-def _below_zero(joint: JointBackground) -> bool:
-    """Whether its rotor comes out as less than nothing: then what it moves is stated too heavy."""
-    return any(each.name == "inertia" and each.interval[1] < 0 for each in joint.parameters)
 
 
 def _torque(subject: MotionSubject) -> dict[str, Any]:

@@ -40,12 +40,7 @@ class MotionCard:
 
 
 def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
-    """The card of a cause.
-
-    Args:
-        cause: it.
-        number: of it among the causes of torque (from 1); other words make another anchor.
-    """
+    """The card of a cause. ``number``: of it among the causes of torque (from 1); other words make another anchor."""
     curve = any(each.name.startswith(KNOT) for each in cause.parameters)
     known = cause_named(cause.effect)
     labels = known.labels if known else {}
@@ -56,16 +51,16 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
         share=percent(cause.share),
         share_width=min(100.0, max(0.0, 100 * cause.share)),
         size=f"{rms_of(cause)} at {cause.joint}",
-        readings=tuple(signed(each, labels) for each in cause.parameters if not _of_a_curve(cause, each)),
+        readings=tuple(
+            signed(each, labels) for each in cause.parameters if not (cause.nameless or each.name.startswith(KNOT))
+        ),
         physics=cause.physics,
         confirm=cause.confirm,
         cure=cause.cure.replace("`", ""),
         evidence=_evidence(cause),
         alternatives=tuple(
             ShownAlternative(
-                _named(other),
-                gap_in_words(other),
-                abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS,
+                _named(other), gap_in_words(other), abs(other.discriminability_nats) < INDISTINGUISHABLE_NATS
             )
             for other in cause.alternatives
         ),
@@ -73,11 +68,6 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
         doubt=cause.doubt,
         figure=f"curve_{number}" if curve else "",
     )
-
-
-def _of_a_curve(cause: FoundCause, parameter: Parameter) -> bool:
-    """Whether a number is one of a curve without a law, and says nothing by itself: they stand in model.yaml."""
-    return cause.nameless or parameter.name.startswith(KNOT)
 
 
 def signed(parameter: Parameter, labels: Mapping[str, str]) -> Reading:

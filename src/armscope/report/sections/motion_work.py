@@ -48,11 +48,8 @@ class MotionTask:
 
 
 def motion_work_order(subject: MotionSubject) -> dict[str, Any]:
-    """What the work order of a motion is filled with.
-
-    Returns:
-        Tasks of the causes, largest share first; those worth little in a word each; friction and rotors of the joints.
-    """
+    """What the work order of a motion is filled with. Returns tasks of the causes, largest share first; those worth
+    little in a word each; friction and rotors of the joints."""
     verdict = subject.verdict
     held_out = verdict.held_out
     to_enter = bool(np.isnan(subject.arm.stated_background[subject.moving, 1:CAUSES_OF_OWN]).any())
@@ -107,10 +104,6 @@ def where_it_shows(before: Entered, after: Entered) -> str:
     """The joint whose torque a step betters most, where that is far more than it does to all torque together.
 
     Large joints hold most of the torque: what puts a wrist right hardly shows in the error of the whole arm.
-
-    Args:
-        before: errors without the step.
-        after: errors with it.
 
     Returns:
         Words in brackets, with a space before; nothing where the whole says it.

@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 
 from armscope.report.figures.next_poses import next_poses_figure
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.effects import findings
-from armscope.report.subject import Subject
 from armscope.verdict.diagnosis import NextPoses
 from armscope.verdict.doubts import doubt_of
 from armscope.verdict.wording import main_and_minor, places_in_words, plain

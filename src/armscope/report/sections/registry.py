@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.along_joints import ALONG_JOINTS
 from armscope.report.sections.assumptions import ASSUMPTIONS
 from armscope.report.sections.atlas import ATLAS
@@ -15,7 +15,6 @@ from armscope.report.sections.suspect_rows import SUSPECT_ROWS
 from armscope.report.sections.unexplained import UNEXPLAINED
 from armscope.report.sections.validation import VALIDATION
 from armscope.report.sections.work_order import WORK_ORDER
-from armscope.report.subject import Subject
 
 SECTIONS: tuple[Section[Subject], ...] = (
     WORK_ORDER, LOCATIONS, CURES, EFFECTS, NEXT_POSES, UNEXPLAINED, VALIDATION, ATLAS, ALONG_JOINTS, SUSPECT_ROWS,

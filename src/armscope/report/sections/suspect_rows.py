@@ -7,8 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.verdict.schema import SuspectRow
 
 MOST_SUSPECTS = 40

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from armscope.report.sectioning import Section
+from armscope.report.sectioning import Section, Subject
 from armscope.report.sections.effect_cards import card
-from armscope.report.subject import Subject
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres
 

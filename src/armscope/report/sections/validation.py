@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from armscope.core.numerals import rounded
+from armscope.core.words import rounded
 from armscope.report.figures.waterfall import OTHER_MODELS, STEPS, waterfall_figure, waterfall_steps
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.verdict.schema import Verdict
 from armscope.verdict.wording import millimetres
 

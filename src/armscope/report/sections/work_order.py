@@ -6,16 +6,14 @@ import math
 from typing import Any
 
 from armscope.core.averages import rms
-from armscope.report.sectioning import Section
-from armscope.report.subject import Subject
+from armscope.report.sectioning import Section, Subject
 from armscope.verdict.diagnosis import Diagnosis
 from armscope.verdict.importance import from_part_to_part
 from armscope.verdict.not_yet import NOT_YET
 from armscope.verdict.sentences import holds, makes_worse
 from armscope.verdict.wording import millimetres
 
-SHOWN = 6
-"""Steps that stand open: those that pay most; the others unfold, and all stand in the work order to print."""
+SHOWN = 6  # Steps that stand open: those that pay most; the others unfold, and all stand in the work order to print
 
 
 def _context(subject: Subject) -> dict[str, Any]:

@@ -44,25 +44,16 @@ def is_thorough(audit: pd.DataFrame) -> bool:
 
 @dataclass(frozen=True)
 class Contradictions:
-    """What of the printed Table 2 can't be true under one reading.
+    """What of the printed Table 2 can't be true under one reading."""
 
-    Attributes:
-        cells: (model, trajectory, axis) that no path allows, taken by themselves.
-        trajectories: on which no path allows all cells together.
-        thorough: whether that can be said: else they are what the few paths that were tried don't allow.
-    """
-
-    cells: frozenset[tuple[str, str, str]]
-    trajectories: frozenset[str]
-    thorough: bool
+    cells: frozenset[tuple[str, str, str]]  # (model, trajectory, axis) that no path allows, taken by themselves
+    trajectories: frozenset[str]  # on which no path allows all cells together
+    thorough: bool  # whether that can be said: else they are what the few paths that were tried don't allow
 
 
 def contradictions(audit: pd.DataFrame) -> Contradictions:
     """Cells and trajectories of the printed table, read as "rss", that contradict its equations, or each other.
-
-    Args:
-        audit: see `armscope.paper.audit`.
-    """
+    ``audit``: see `armscope.paper.audit`."""
     broken = audit[(audit["reading"] == "rss") & ~audit["possible"].astype(bool)]
     single = broken[broken["axis"].isin(AXES)]
     cells: set[tuple[str, str, str]] = set()

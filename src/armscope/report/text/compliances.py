@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.real.compliance_tables import half_width
 from armscope.real.constants import COMPLIANCE
 

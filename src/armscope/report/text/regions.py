@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from armscope.core.markdown import table_lines
+from armscope.core.words import table_lines
 from armscope.real.protocol import ARMSCOPE
 from armscope.report.html import significant
 
@@ -20,14 +20,7 @@ PLUS = {"compliance": "+ compliance"}
 
 
 def region_lines(folder: Path) -> str:
-    """A paragraph and a table from regions.csv in a folder of results; nothing where there is none.
-
-    Args:
-        folder: of results.
-
-    Returns:
-        Markdown.
-    """
+    """A paragraph and a table from regions.csv in a folder of results; nothing where there is none."""
     if not (folder / "regions.csv").exists():
         return ""
     table = pd.read_csv(folder / "regions.csv")

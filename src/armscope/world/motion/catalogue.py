@@ -12,71 +12,106 @@ from typing import Literal
 import numpy as np
 
 from armscope.core.inputs import Strict
+from armscope.core.types import Array
+from armscope.world.kinds import joints
 from armscope.world.motion.kinds import GRIPPER, LIBRARY, Kind
 from armscope.world.motion.links import LINKED
-from armscope.world.motion.outside import OUTSIDE
 from armscope.world.motion.rough import draw_broken
-from armscope.world.motion.session import PathRule
+from armscope.world.motion.session import GRID_HZ, PathRule, Session
+from armscope.world.motion.stage import Numbers, Stage, sign
 from armscope.world.spec import Details, EffectSpec, Recipe, seeded
+
+
+def _hysteresis(stage: Stage, joint: int, numbers: Numbers) -> Array:
+    """Dahl's law, the core of LuGre's (Canudas de Wit et al. 1995): friction comes back over a way, not a speed.
+
+    dz/dt = v (1 - sign(v) z / way): z / way goes from -1 to 1 over a few times `way` after each reversal.
+    """
+    state = 0.0
+    shares = np.empty(len(stage.session))
+    steps = stage.session.speed[:, joint] / GRID_HZ / numbers["way"]
+    for row, step in enumerate(steps):
+        # exact over a step of constant speed
+        side = np.sign(step)
+        state = side + (state - side) * np.exp(-abs(step)) if step else state
+        shares[row] = state
+    return numbers["torque"] * shares
+
+
+def _eccentric(stage: Stage, joint: int, numbers: Numbers) -> Array:
+    """A gear off its centre meshes tight on one side of the turn: dry friction goes up and down once per turn."""
+    turned = stage.session.angle[:, joint] - numbers["phase"]
+    return numbers["torque"] * np.cos(turned) * sign(stage.session, joint)
+
+
+def _play(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
+    """Torque goes through a play: what is recorded follows only once the torque has changed by its width."""
+    found = np.array(torque)
+    half = numbers["width"] / 2
+    for run in session.runs():
+        follows = torque[run.start, joint]
+        for row in range(run.start, run.stop):
+            follows = min(max(follows, torque[row, joint] - half), torque[row, joint] + half)
+            found[row, joint] = follows
+    return found
+
+
+def _saturating(session: Session, torque: Array, joint: int, numbers: Numbers) -> Array:
+    """A sensor that reads less and less of more: limit tanh(torque / limit); the loss grows with 1 / limit^2."""
+    found = np.array(torque)
+    limit = 1 / np.sqrt(numbers["per_square"])
+    found[:, joint] = limit * np.tanh(torque[:, joint] / limit)
+    return found
+
+
+OUTSIDE: tuple[Kind, ...] = (
+    Kind("unknown", joints, lambda rng, _: {"torque": 1.0, "way": float(rng.uniform(0.03, 0.1))},
+         {"torque": "N m", "way": "rad"}, ("torque",), {}, pulls=_hysteresis, shape="hysteresis"),
+    Kind("unknown", joints, lambda rng, _: {"width": 1.0}, {"width": "N m"}, ("width",), {}, records=_play,
+         driver="load", shape="torque_play"),
+    Kind("unknown", joints, lambda rng, _: {"torque": 1.0, "phase": float(rng.uniform(-np.pi, np.pi))},
+         {"torque": "N m", "phase": "rad"}, ("torque",), {}, pulls=_eccentric, shape="eccentric_friction"),
+    Kind("unknown", joints, lambda rng, _: {"per_square": 1.0}, {"per_square": "1/(N m)^2"}, ("per_square",), {},
+         records=_saturating, driver="load", shape="saturating_sensor"),
+)  # fmt: skip
+
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in (*LIBRARY, GRIPPER, *OUTSIDE, *LINKED)}
 ARMS = ("two-axis", "six-axis", "seven-axis")
-RATES = (100, 125, 250)
-"""Hz; divisors of the grid's rate."""
+RATES = (100, 125, 250)  # Hz; divisors of the grid's rate
 FIXED_SEED = 20261122
 STRENGTHS = (3.0, 5.0, 10.0)
-OUT_OF_ROUGH = (2.0, 3.0, 5.0)
-"""Sizes of what stands out of a rough arm, over its noise and all that is rough together."""
+OUT_OF_ROUGH = (2.0, 3.0, 5.0)  # Sizes of what stands out of a rough arm, over its noise and all that is rough together
 
 Category = Literal["clean", "single", "multiple", "outside", "confounded", "rough"]
 Size = Literal["small", "full"]
 
 
 class MotionSpec(Strict):
-    """All that a moving world is made from.
+    """All that a moving world is made from."""
 
-    Attributes:
-        id: its folder's name; it says nothing about what is inside.
-        category: what it is there to show.
-        arm: file in config/motion without its ending.
-        seed: of everything random in it.
-        fresh: whether the seed comes from the proof's seed.
-        rate: Hz of the recorded rows.
-        noise: standard deviation of the torque's noise as a share of each joint's RMS torque.
-        effects: what it conceals.
-        stated: whether robot.yaml states friction and rotor inertia.
-        current: whether motor currents are recorded instead of torques, with exact gains in robot.yaml.
-        linked: whether every link has an encoder of its own beside its motor's.
-        rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all.
-        rough: what the arm has everywhere, names of `armscope.world.motion.rough.BLEMISHES`; what it conceals besides
-            is so many times as large as noise and that together.
-        durations: s, of the training runs and, last, of the test path.
-    """
-
-    id: str
-    category: Category
-    arm: str
-    seed: int
-    fresh: bool
-    rate: int
-    noise: float
+    id: str  # its folder's name; it says nothing about what is inside
+    category: Category  # what it is there to show
+    arm: str  # file in config/motion without its ending
+    seed: int  # of everything random in it
+    fresh: bool  # whether the seed comes from the proof's seed
+    rate: int  # Hz of the recorded rows
+    noise: float  # standard deviation of the torque's noise as a share of each joint's RMS torque
     effects: tuple[EffectSpec, ...] = ()
-    stated: bool = False
-    current: bool = False
-    linked: bool = False
+    stated: bool = False  # whether robot.yaml states friction and rotor inertia
+    current: bool = False  # whether motor currents are recorded instead of torques, with exact gains in robot.yaml
+    linked: bool = False  # whether every link has an encoder of its own beside its motor's
+    # rule, joint: how the training runs move: freely, or one joint (0-based) one way only, or hardly at all
     rule: PathRule = "free"
     joint: int | None = None
+    # what the arm has everywhere, names of `armscope.world.motion.rough.BLEMISHES`; what it conceals besides is so many
+    # times as large as noise and that together
     rough: tuple[str, ...] = ()
-    durations: tuple[float, ...] = (14.0, 14.0, 10.0)
+    durations: tuple[float, ...] = (14.0, 14.0, 10.0)  # s, of the training runs and, last, of the test path
 
 
 def catalogue(proof_seed: int, size: Size = "small") -> list[MotionSpec]:
-    """The worlds of a proof.
-
-    Args:
-        proof_seed: from which the seeds of every second world are derived.
-        size: which proof.
-    """
+    """The worlds of a proof. ``proof_seed``: from which the seeds of every second world are derived."""
     recipes = list(_small() if size == "small" else _full())
     return [_spec(number, category, recipe, proof_seed) for number, (category, recipe) in enumerate(recipes)]
 

@@ -41,17 +41,13 @@ from armscope.world.motion.session import make_session
 from armscope.world.motion.virtual_arm import ImpossibleEffect, Sized, VirtualArm, ordinary, place
 
 FRICTION = ("rotor_inertia_kg_m2", "coulomb_nm", "viscous_nm_s_rad")
-QUIETEST = 0.002
-"""Noise of a joint that hardly needs torque, as a share of its largest."""
+QUIETEST = 0.002  # Noise of a joint that hardly needs torque, as a share of its largest
 DRAWS, QUIETER = 6, 0.7
 """Of arms and paths that are tried before an effect is given up, each recorded with so much of the noise before: what
 is so many times the noise is less absurd then."""
-STANDS = 0.01
-"""rad/s below which a joint stands: ten times the speed from which MuJoCo's dry friction is fully there."""
-GAINS = (4.0, 14.0)
-"""N m/A at the joint's side, of arms of this class."""
-GAIN_KNOWN = 0.03
-"""Share to which gains are stated where they are rough."""
+STANDS = 0.01  # rad/s below which a joint stands: ten times the speed from which MuJoCo's dry friction is fully there
+GAINS = (4.0, 14.0)  # N m/A at the joint's side, of arms of this class
+GAIN_KNOWN = 0.03  # Share to which gains are stated where they are rough
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,13 +74,6 @@ def make(spec: MotionSpec, robots: Path) -> World:
 
     Where the arm of the spec can't conceal what is asked for without being absurd, the next arm of the catalogue does,
     and where none can, one of another draw of its make and of its paths, recorded with less noise.
-
-    Args:
-        spec: what to make.
-        robots: folder of the arms' descriptions.
-
-    Returns:
-        The world.
 
     Raises:
         ImpossibleEffect: the spec's effects can't be on any arm.

@@ -17,18 +17,9 @@ from armscope.core.location import Location
 from armscope.core.types import Array
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import joints, links
-from armscope.world.motion.drives import behind_its_drive
-from armscope.world.motion.limits import (
-    Numbers,
-    centre_may_be,
-    holds_its_link,
-    mass_may_be,
-    resists_either_way,
-    resists_when_warm,
-)
 from armscope.world.motion.mechanism import Coupling, Dynamics, Spring
 from armscope.world.motion.session import COLD_C, GRID_HZ, Session
-from armscope.world.motion.stage import PlainArm, Stage, sign
+from armscope.world.motion.stage import Numbers, PlainArm, Stage, sign
 
 UNKNOWN = "unknown"
 Changes = Callable[[Dynamics, Location, Numbers], Dynamics]
@@ -38,37 +29,25 @@ Records = Callable[[Session, Array, int, Numbers], Array]
 
 @dataclass(frozen=True)
 class Kind:
-    """A cause that can be concealed.
+    """A cause that can be concealed."""
 
-    Attributes:
-        effect: its name in the vocabulary, `UNKNOWN` for what no library has.
-        places: where it can stand on an arm.
-        draw: its numbers at unit size; those in `scaled` grow in proportion.
-        units: of every number.
-        scaled: names of the numbers that the size multiplies.
-        largest: how far the scaled numbers may go before the thing would be absurd, by name.
-        changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too.
-        driver: what it follows.
-        needs: columns of motions.csv without which nobody could see it.
-        stated: whether robot.yaml states what it departs from (ordinary friction is in every arm).
-        shape: which of several kinds of one effect, and of those outside the library.
-        possible: (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given.
-    """
-
-    effect: str
-    places: Callable[[RobotDescription], list[str]]
+    effect: str  # its name in the vocabulary, `UNKNOWN` for what no library has
+    places: Callable[[RobotDescription], list[str]]  # where it can stand on an arm
+    # its numbers at unit size; those in `scaled` grow in proportion
     draw: Callable[[np.random.Generator, RobotDescription], dict[str, float]]
     units: Mapping[str, str]
-    scaled: tuple[str, ...]
-    largest: Mapping[str, float]
+    scaled: tuple[str, ...]  # names of the numbers that the size multiplies
+    largest: Mapping[str, float]  # how far the scaled numbers may go before the thing would be absurd, by name
+    # changes, pulls, records, lies: its physics, one of them; a drive that winds up pulls, too
     changes: Changes | None = None
     pulls: Pulls | None = None
     records: Records | None = None
     lies: Pulls | None = None
     driver: str = "speed"
-    needs: tuple[str, ...] = ()
-    stated: bool = False
-    shape: str = ""
+    needs: tuple[str, ...] = ()  # columns of motions.csv without which nobody could see it
+    stated: bool = False  # whether robot.yaml states what it departs from (ordinary friction is in every arm)
+    shape: str = ""  # which of several kinds of one effect, and of those outside the library
+    # (arm, joint from 0, its numbers) whether a body can be so; anything can where it is not given
     possible: Callable[[PlainArm, int, Numbers], bool] | None = None
 
     @property
@@ -234,7 +213,7 @@ LIBRARY: tuple[Kind, ...] = (
     Kind("asymmetric_friction", joints, _either("viscous_difference"), {"viscous_difference": "N m s/rad"},
          ("viscous_difference",), {},
          pulls=lambda stage, j, x: x["viscous_difference"] * np.abs(stage.session.speed[:, j]),
-         possible=resists_either_way),
+         possible=PlainArm.resists_either_way),
     Kind("stribeck_friction", joints, _more("stribeck", speed=0.15), {"stribeck": "N m", "speed": "rad/s"},
          ("stribeck",), {}, pulls=_stribeck),
     Kind("load_friction", loaded_joints, _more("per_load"), {"per_load": ""}, ("per_load",), {"per_load": 0.3},
@@ -243,7 +222,7 @@ LIBRARY: tuple[Kind, ...] = (
          ("per_kelvin",), {}, needs=("temperature_c",), driver="temperature",
          pulls=lambda stage, j, x: (
              x["per_kelvin"] * (stage.session.temperature - COLD_C) * stage.session.speed[:, j]),
-         possible=resists_when_warm),
+         possible=PlainArm.resists_when_warm),
     Kind("rotor_inertia", joints, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {},
          changes=_added("rotor", "inertia"), driver="acceleration", stated=True),
     Kind("torque_offset", joints, _either("offset"), {"offset": "N m"}, ("offset",), {},
@@ -253,11 +232,11 @@ LIBRARY: tuple[Kind, ...] = (
     Kind("torque_delay", joints, _more("delay"), {"delay": "s"}, ("delay",), {"delay": 0.05}, records=_late,
          driver="time"),
     Kind("joint_compliance", loaded_joints, _more("compliance"), {"compliance": "rad/(N m)"}, ("compliance",), {},
-         pulls=behind_its_drive, driver="load", possible=holds_its_link),
+         pulls=Stage.behind_its_drive, driver="load", possible=PlainArm.holds_its_link),
     Kind("link_mass", links, _either("mass"), {"mass": "kg"}, ("mass",), {}, changes=_heavier, driver="load",
-         possible=mass_may_be),
+         possible=PlainArm.mass_may_be),
     Kind("link_first_moment", links, _direction("mx", "my", "mz"), dict.fromkeys(("mx", "my", "mz"), "kg m"),
-         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=centre_may_be),
+         ("mx", "my", "mz"), {}, changes=_off_centre, driver="load", possible=PlainArm.centre_may_be),
     Kind("link_inertia", links, _more("inertia"), {"inertia": "kg m^2"}, ("inertia",), {}, changes=_thicker,
          driver="acceleration"),
     Kind("payload_error", lambda _: ["payload"], _more("mass"), {"mass": "kg"}, ("mass",), {}, changes=_carries,

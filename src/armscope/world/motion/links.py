@@ -13,22 +13,16 @@ from scipy.signal import lfilter
 from armscope.core.types import Array, Indices
 from armscope.robot.description import RobotDescription
 from armscope.world.kinds import joints
-from armscope.world.motion.drives import behind_its_drive, wound_up
 from armscope.world.motion.kinds import Kind, loaded_joints
-from armscope.world.motion.limits import Numbers, holds_its_link
 from armscope.world.motion.recording import ENCODER_STEPS
 from armscope.world.motion.session import GRID_HZ, Session
-from armscope.world.motion.stage import Stage
+from armscope.world.motion.stage import Numbers, PlainArm, Stage
 from armscope.world.rivals import Rival
 
-NOISE_RAD = 2e-5
-"""Of link less motor, as encoders of some arc seconds have it."""
-ZERO_RAD = 1e-3
-"""Spread of the difference of two encoders' zeros."""
-ACROSS_S = 0.005
-"""In which a link goes from one end of its play to the other, to about a third."""
-WAVES = (1, 2)
-"""Per turn: a disc off its centre, an oval or tilted one."""
+NOISE_RAD = 2e-5  # Of link less motor, as encoders of some arc seconds have it
+ZERO_RAD = 1e-3  # Spread of the difference of two encoders' zeros
+ACROSS_S = 0.005  # In which a link goes from one end of its play to the other, to about a third
+WAVES = (1, 2)  # Per turn: a disc off its centre, an oval or tilted one
 
 
 def read_links(session: Session, rows: Indices, beside: Array, rng: np.random.Generator) -> tuple[Array, Array]:
@@ -79,8 +73,8 @@ def _some_wave(rng: np.random.Generator, _: RobotDescription) -> dict[str, float
 
 LINKED: tuple[Kind, ...] = (
     Kind("joint_elasticity", loaded_joints, lambda rng, _: {"compliance": 1.0}, {"compliance": "rad/(N m)"},
-         ("compliance",), {}, pulls=behind_its_drive, lies=lambda stage, j, x: wound_up(stage, j, x)[0][:, j],
-         driver="load", possible=holds_its_link),
+         ("compliance",), {}, pulls=Stage.behind_its_drive, lies=lambda stage, j, x: stage.wound_up(j, x)[0][:, j],
+         driver="load", possible=PlainArm.holds_its_link),
     Kind("joint_play", loaded_joints, lambda rng, _: {"half": 1.0}, {"half": "rad"}, ("half",), {"half": 0.01},
          lies=_at_either_end, driver="direction of the load"),
     Kind("gear_ratio", joints, lambda rng, _: {"share": float(rng.choice([-1.0, 1.0]))}, {"share": ""}, ("share",),
@@ -92,15 +86,7 @@ LINKED: tuple[Kind, ...] = (
 
 
 def link_rivals(stage: Stage, j: int) -> Iterator[Rival]:
-    """Every cause of a link beside its motor at one joint, as patterns (N, k).
-
-    Args:
-        stage: the samples at which they are wanted.
-        j: the joint, from 0.
-
-    Yields:
-        One at a time.
-    """
+    """Every cause of a link beside its motor at one joint, as patterns (N, k). ``j``: the joint, from 0."""
     place, load, angle = f"joint {j + 1}", stage.load[:, [j]], stage.session.angle[:, [j]]
     yield Rival("joint_elasticity", place, -load)
     yield Rival("joint_play", place, -np.sign(load))

@@ -20,10 +20,8 @@ from armscope.world.mjcf import numbers, placed
 
 STIFF_FRICTION = 'solimpfriction="0.999 0.999 0.001" solreffriction="0.004 1"'
 """Dry friction that is fully there from about a milliradian per second on."""
-LEAST = 1e-9
-"""Friction below this many N m is left out of the model."""
-LEAST_INERTIA = 1e-12
-"""kg m^2: a point's, to an engine that allows no zero."""
+LEAST = 1e-9  # Friction below this many N m is left out of the model
+LEAST_INERTIA = 1e-12  # kg m^2: a point's, to an engine that allows no zero
 
 
 @dataclass(frozen=True)
@@ -48,27 +46,18 @@ class Coupling:
 
 @dataclass(frozen=True, eq=False)
 class Dynamics:
-    """An arm's dynamics in numbers; n joints, each with a motor of its own.
+    """An arm's dynamics in numbers; n joints, each with a motor of its own."""
 
-    Attributes:
-        mass: (n,) kg.
-        centre: (n, 3) centres of mass in the links' D-H frames, m.
-        inertia: (n, 6) xx, yy, zz, xy, xz, yz about the centres of mass in the same axes, kg m^2.
-        rotor: (n,) rotor inertia at the joint's side, kg m^2.
-        coulomb, viscous: (n,) N m, N m s/rad.
-        gravity: (3,) in the base frame, m/s^2.
-        load, load_centre, load_inertia: a body, kg, where it is from the tool point, in the last frame, m, and its
-            inertia about any axis through its centre, kg m^2.
-        springs, couplings: what else pulls.
-    """
-
-    mass: Array
-    centre: Array
-    inertia: Array
-    rotor: Array
+    mass: Array  # (n,) kg
+    centre: Array  # (n, 3) centres of mass in the links' D-H frames, m
+    inertia: Array  # (n, 6) xx, yy, zz, xy, xz, yz about the centres of mass in the same axes, kg m^2
+    rotor: Array  # (n,) rotor inertia at the joint's side, kg m^2
+    # coulomb, viscous: (n,) N m, N m s/rad
     coulomb: Array
     viscous: Array
-    gravity: Array
+    gravity: Array  # (3,) in the base frame, m/s^2
+    # load, load_centre, load_inertia: a body, kg, where it is from the tool point, in the last frame, m, and its
+    # inertia about any axis through its centre, kg m^2
     load: float = 0.0
     load_centre: Array | None = None
     load_inertia: float = 0.0

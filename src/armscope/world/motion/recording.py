@@ -12,35 +12,22 @@ from armscope.core.types import Array, Indices
 from armscope.world.motion.constants import ROUGH_MOTION as ROUGH
 from armscope.world.motion.session import GRID_HZ, Session
 
-ENCODER_STEPS = 2**19
-"""Of a turn of the joint, as good industrial arms resolve it."""
-TORQUE_STEPS = 2**13
-"""From the largest torque to its opposite."""
-ANTI_ALIAS = 0.4
-"""Cut-off of the drives' filter as a share of the recorded rate."""
-MEMORY_S = 0.02
-"""Half of a torque's noise is white; the other half is ripple and control noise that lasts this long."""
-SPEED_FILTER_S = 0.004
-"""Drives filter the speed that they report, which is late by as much."""
+ENCODER_STEPS = 2**19  # Of a turn of the joint, as good industrial arms resolve it
+TORQUE_STEPS = 2**13  # From the largest torque to its opposite
+ANTI_ALIAS = 0.4  # Cut-off of the drives' filter as a share of the recorded rate
+MEMORY_S = 0.02  # Half of a torque's noise is white; the other half is ripple and control noise that lasts this long
+SPEED_FILTER_S = 0.004  # Drives filter the speed that they report, which is late by as much
 
 
 @dataclass(frozen=True, eq=False)
 class Recorded:
-    """The recorded rows of a session.
+    """The recorded rows of a session."""
 
-    Attributes:
-        rows: (N,) which samples of the fine grid.
-        torque: (N, n) read, N m.
-        noise: (N, n) noise and steps in it, N m.
-        left: (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off.
-        links: (N, n) rad, of the links' own encoders; None where they have none.
-    """
-
-    rows: Indices
-    torque: Array
-    noise: Array
-    left: Array
-    links: Array | None = None
+    rows: Indices  # (N,) which samples of the fine grid
+    torque: Array  # (N, n) read, N m
+    noise: Array  # (N, n) noise and steps in it, N m
+    left: Array  # (N, n) what the true torque of that moment leaves: the noise, and what the drives' filter rounds off
+    links: Array | None = None  # (N, n) rad, of the links' own encoders; None where they have none
 
 
 def record(

@@ -30,21 +30,15 @@ MOST_SAMPLES = 600
 SMALL = 1e-4
 STRIBECK_SPEEDS = (0.05, 0.15, 0.4)
 CURVE_DEGREE = 5
-SEEN_NATS = 20.0
-"""From which there is something that another name could be as good for."""
+SEEN_NATS = 20.0  # From which there is something that another name could be as good for
 
 
 @dataclass(frozen=True)
 class Standing:
-    """What is to be asked for of a concealed cause, the others being as they are.
+    """What is to be asked for of a concealed cause, the others being as they are."""
 
-    Attributes:
-        alternatives: acceptable names in its place, nearest first.
-        beside_nats: what is left of it where each other cause's name says as much of it as it can.
-    """
-
-    alternatives: list[Alternative]
-    beside_nats: float
+    alternatives: list[Alternative]  # acceptable names in its place, nearest first
+    beside_nats: float  # what is left of it where each other cause's name says as much of it as it can
 
     @property
     def is_said_by_others(self) -> bool:

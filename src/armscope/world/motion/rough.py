@@ -18,18 +18,15 @@ from armscope.world.kinds import joints, links
 from armscope.world.layout import Geometry
 from armscope.world.motion.constants import ROUGH_MOTION as ROUGH
 from armscope.world.motion.kinds import LIBRARY, UNKNOWN, Concealed, Kind
-from armscope.world.motion.limits import Numbers
 from armscope.world.motion.mechanism import Dynamics
 from armscope.world.motion.session import GRID_HZ, WARMING_C, Session
-from armscope.world.motion.stage import PlainArm, Stage, stage_of
+from armscope.world.motion.stage import Numbers, PlainArm, Stage, stage_of
 from armscope.world.motion.virtual_arm import VirtualArm
 from armscope.world.rough import between
 
 OF = {kind.name: kind for kind in LIBRARY}
-LEAST_SHARE = -0.7
-"""A body keeps some of its inertia."""
-DRIFTS = 3
-"""Waves that a wandering zero is made of."""
+LEAST_SHARE = -0.7  # A body keeps some of its inertia
+DRIFTS = 3  # Waves that a wandering zero is made of
 AS_GOOD = {
     "rest": ("coulomb_friction",), "bend": ("coulomb_friction", "viscous_friction"), "warm": ("viscous_friction",),
 }  # fmt: skip
@@ -104,10 +101,6 @@ def _either(rng: np.random.Generator, pair: Pair) -> float:
     return float(rng.choice([-1.0, 1.0])) * between(rng, pair)
 
 
-def _usual(arm: PlainArm, joint: int) -> float:
-    return float(np.sqrt(np.mean(arm.session.speed[:, joint] ** 2)))
-
-
 def _rest(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:
     more = between(rng, ROUGH.rest_share) * arm.dynamics.coulomb[joint]
     return OF["stribeck_friction"], {"stribeck": float(more), "speed": between(rng, ROUGH.rest_speed)}
@@ -124,7 +117,11 @@ def _viscous_sides(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple
 
 def _bend(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:
     viscous, power = float(arm.dynamics.viscous[joint]), between(rng, ROUGH.bend_power)
-    return BENT, {"viscous": viscous, "usual": _usual(arm, joint), "power": power}
+    return BENT, {
+        "viscous": viscous,
+        "usual": float(np.sqrt(np.mean(arm.session.speed[:, joint] ** 2))),
+        "power": power,
+    }
 
 
 def _loaded(rng: np.random.Generator, arm: PlainArm, joint: int) -> tuple[Kind, dict[str, float]]:

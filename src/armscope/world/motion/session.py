@@ -14,38 +14,29 @@ from armscope.core.types import Array, Indices
 from armscope.design.fourier import Limits, random_path
 from armscope.robot.description import RobotDescription
 
-GRID_HZ = 500
-"""Motions are simulated at this rate; what is recorded is every second, fourth or fifth sample of it."""
+GRID_HZ = 500  # Motions are simulated at this rate; what is recorded is every second, fourth or fifth sample of it
 COLD_C, WARMING_C, WARMING_S = 20.0, 18.0, 25.0
 """Gears start at 20 C and warm by up to 18 C: faster than real ones (an hour), so that a short session shows it."""
 HARMONICS = 6
 ONE_WAY_SHARE = 0.7
 """A joint that only moves one way runs over this share of its range; its waves take up to half of its speed."""
-NARROW_SHARE = 0.06
-"""A joint that hardly moves uses this share of its range."""
+NARROW_SHARE = 0.06  # A joint that hardly moves uses this share of its range
 
 PathRule = Literal["free", "one_way", "narrow"]
 
 
 @dataclass(frozen=True, eq=False)
 class Session:
-    """A motion at T samples of n joints.
+    """A motion at T samples of n joints."""
 
-    Attributes:
-        time: (T,) s, from the start of each run.
-        run: (T,) name of the run.
-        angle, speed, acceleration: (T, n) rad, rad/s, rad/s^2.
-        temperature: (T,) C.
-        test: (T,) belongs to the test path.
-    """
-
-    time: Array
-    run: NDArray[np.str_]
+    time: Array  # (T,) s, from the start of each run
+    run: NDArray[np.str_]  # (T,) name of the run
+    # angle, speed, acceleration: (T, n) rad, rad/s, rad/s^2
     angle: Array
     speed: Array
     acceleration: Array
-    temperature: Array
-    test: NDArray[np.bool_]
+    temperature: Array  # (T,) C
+    test: NDArray[np.bool_]  # (T,) belongs to the test path
 
     def __len__(self) -> int:
         return len(self.time)

@@ -15,14 +15,10 @@ from armscope.world.motion.mechanism import Dynamics, MovingArm
 from armscope.world.motion.session import Session
 from armscope.world.motion.stage import PlainArm, sign, stage_of
 
-CLOSE = 0.01
-"""Sizes are reached to within this share."""
-FIRST = 1e-4
-"""Sizes are found from this share of a unit on: small enough for any body."""
-MOST_TRIES = 40
-"""Places and numbers that are drawn before an effect counts as impossible."""
-TOO_SMALL = 1e-9
-"""What background friction absorbs has no size."""
+CLOSE = 0.01  # Sizes are reached to within this share
+FIRST = 1e-4  # Sizes are found from this share of a unit on: small enough for any body
+MOST_TRIES = 40  # Places and numbers that are drawn before an effect counts as impossible
+TOO_SMALL = 1e-9  # What background friction absorbs has no size
 
 
 class ImpossibleEffect(ValueError):
@@ -33,15 +29,8 @@ class VirtualArm(PlainArm):
     """An arm that can conceal things: what its drives and encoders then say, and how much of that stands out."""
 
     def torques(self, concealed: list[Concealed], session: Session | None = None) -> Array:
-        """(T, n) what the drives would record without noise, N m.
-
-        Args:
-            concealed: what is wrong with the arm.
-            session: another motion than its own.
-
-        Raises:
-            ValueError: no body has the inertias that come out.
-        """
+        """(T, n) what the drives would record without noise, N m. Raises ValueError: no body has the inertias that
+        come out."""
         session = self.session if session is None else session
         geometry, dynamics = Geometry(self.description), self.dynamics
         for each in concealed:
@@ -113,10 +102,7 @@ def ordinary(dynamics: Dynamics, rng: np.random.Generator) -> Dynamics:
     """The friction and the rotors of one arm of a make: each a quarter off, as arms of a make differ."""
     rotor, coulomb, viscous = np.exp(rng.normal(0, 0.25, (3, dynamics.n_joints)))
     return replace(
-        dynamics,
-        rotor=dynamics.rotor * rotor,
-        coulomb=dynamics.coulomb * coulomb,
-        viscous=dynamics.viscous * viscous,
+        dynamics, rotor=dynamics.rotor * rotor, coulomb=dynamics.coulomb * coulomb, viscous=dynamics.viscous * viscous
     )
 
 
