@@ -9,7 +9,7 @@ from armscope.core.constants import Constants, constant
 
 @dataclass(frozen=True)
 class Leading(Constants):
-    """When a column of the side of approach has the wrong sign."""
+    """When a column of the side of approach has the wrong sign, or is another joint's."""
 
     standard_errors: float = constant(
         10.0,
@@ -19,6 +19,17 @@ class Leading(Constants):
     )
     both_sides: float = constant(
         1.5, "between two rows' sides from which a joint is approached from both", "derived: sides are -1 and +1"
+    )
+    agrees: float = constant(
+        0.95,
+        "of rows in which a side is that of a joint's motion from the row before, from which it is that joint's",
+        "judgement: nearly all, some rows being measured again or out of order",
+    )
+    fewest_rows: int = constant(
+        20,
+        "that tell both",
+        "derived: of 20 tossed coins 19 are alike for one pair of columns in 50,000",
+        unit="rows",
     )
 
 
