@@ -11,6 +11,7 @@ from armscope.calibration.state import State
 from armscope.check.plain_constants import LEADING
 from armscope.check.plain_errors import PlainErrors
 from armscope.check.suspicion import APPROACH, Suspicion
+from armscope.core.types import Array
 from armscope.recordings import Recordings
 from armscope.recordings.motion import sides_of_last_moves
 from armscope.robot import Arm
@@ -51,16 +52,17 @@ def exchanged_sides(recordings: Recordings) -> list[Suspicion]:
     share[both < LEADING.fewest_rows] = 0.0
     sure = share > LEADING.agrees
     others = {motor: int(np.argmax(share[motor])) for motor in np.flatnonzero(sure.any(axis=1) & ~sure.diagonal())}
-    return [
-        Suspicion(
-            "hint",
-            f"approach{motor + 1} holds the side from which joint {other + 1} came, by the row before, in "
-            f"{100 * share[motor, other]:.0f} % of the rows, and joint {motor + 1} in {100 * share[motor, motor]:.0f} %",
-            f"Are columns approach{motor + 1} and approach{other + 1} exchanged? Play would be told at the wrong joint.",
-            APPROACH,
-        )
-        for motor, other in others.items()
-    ]
+    return [_exchanged(motor, other, share[motor]) for motor, other in others.items()]
+
+
+def _exchanged(motor: int, other: int, share: Array) -> Suspicion:
+    """Told of the column of a motor (from 0), of the other that it follows, and the shares of rows in which it does."""
+    statement = (
+        f"approach{motor + 1} holds the side from which joint {other + 1} came, by the row before, in "
+        f"{100 * share[other]:.0f} % of the rows, and joint {motor + 1} in {100 * share[motor]:.0f} %"
+    )
+    cure = f"Are columns approach{motor + 1} and approach{other + 1} exchanged? Play would be told at the wrong joint."
+    return Suspicion("hint", statement, cure, APPROACH)
 
 
 def _told(motor: int, ahead: float) -> Suspicion:
