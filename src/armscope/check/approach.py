@@ -52,7 +52,7 @@ def exchanged_sides(recordings: Recordings) -> list[Suspicion]:
     share[both < LEADING.fewest_rows] = 0.0
     sure = share > LEADING.agrees
     others = {motor: int(np.argmax(share[motor])) for motor in np.flatnonzero(sure.any(axis=1) & ~sure.diagonal())}
-    return [_exchanged(motor, other, share[motor]) for motor, other in others.items()]
+    return [_exchanged(int(motor), other, share[motor]) for motor, other in others.items()]
 
 
 def _exchanged(motor: int, other: int, share: Array) -> Suspicion:
