@@ -28,3 +28,21 @@ def test_play_that_leads_its_command_is_a_column_of_the_wrong_sign(sign: int) ->
         assert notice.kind == APPROACH
         assert "approach2" in notice.text
         assert "Turn the sign" in notice.text
+
+
+@pytest.mark.parametrize(("order", "told"), [((0, 1, 2), []), ((0, 2, 1), [2, 3]), ((1, 2, 0), [1, 2, 3])])
+def test_a_column_that_is_another_joints_is_told(order: tuple[int, ...], told: list[int]) -> None:
+    arm, rng = ur_like(), np.random.default_rng(4)
+    angles = poses(rng, 60, 6)
+    sides = np.sign(np.diff(angles, axis=0, prepend=0.0))[:, [*order, 3, 4, 5]]
+    rows = measured(planted(arm, rng), angles, far_away(rng), {"": [0.0, 0.1, 0.1]}, 3e-5, rng)
+    found = [each for each in check(replace(rows, approach=sides), arm).suspicions if each.kind == APPROACH]
+    assert [each.statement.split()[0] for each in found] == [f"approach{joint}" for joint in told]
+
+
+def test_sides_of_other_ways_than_from_row_to_row_are_nobody_elses() -> None:
+    arm, rng = ur_like(), np.random.default_rng(4)
+    angles = poses(rng, 60, 6)
+    rows = measured(planted(arm, rng), angles, far_away(rng), {"": [0.0, 0.1, 0.1]}, 3e-5, rng)
+    for sides in (rng.choice([-1.0, 1.0], angles.shape), np.ones_like(angles)):
+        assert not [each for each in check(replace(rows, approach=sides), arm).suspicions if each.kind == APPROACH]

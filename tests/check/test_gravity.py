@@ -9,8 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from armscope.check.report import check, what_forbids
 from armscope.check.suspicion import GRAVITY
-from armscope.recordings import read_recordings
-from armscope.robot import load_arm
+from armscope.core.types import Array
+from armscope.recordings import Recordings, read_recordings
+from armscope.robot import Arm, chain, load_arm
 from tests.calibration.worlds import far_away, measured, poses
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -71,3 +72,20 @@ def test_an_arm_on_a_slope_described_as_upright_is_asked_how_it_leans(degrees: f
     assert f"leans by {degrees} degrees" in text
     told = np.array([float(each) for each in text.partition("[")[2].partition("]")[0].split(",")])
     assert np.degrees(np.arccos(told @ arm.gravity / np.linalg.norm(told) / 9.81)) < 1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_target_that_falls_about_on_the_tool_is_no_gravity(seed: int) -> None:
+    """It moves with its weight as if the wrist gave way, and by chance against it: three of three were told so."""
+    arm = load_arm(EXAMPLES / "one-effect" / "robot.yaml")
+    angles = poses(np.random.default_rng(seed), 200, arm.n_motors)
+    nest = np.array([0.0, 0.0, 3e-4])
+    lower, upper = (_with_target(arm, angles, np.array([0.0, 0.0, 0.1]) + side * nest) for side in (1, -1))
+    down = chain(arm, angles).tool_rotation[:, 2, 2] < 0
+    rows = replace(lower, positions=np.where(down[:, None], lower.positions, upper.positions))
+    assert [each.text() for each in check(rows, arm).suspicions if each.kind == GRAVITY] == []
+
+
+def _with_target(arm: Arm, angles: Array, at: Array) -> Recordings:
+    rng = np.random.default_rng(8)
+    return measured(arm, angles, far_away(rng), {"": at.tolist()}, 3e-5, rng)

@@ -7,7 +7,7 @@ import pytest
 
 from armscope.diagnosis.held_out_worth import earned, held_out_gains, predicted_better
 from armscope.inference.evidence import evaluate
-from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
+from armscope.inference.model_space import Candidate, Companion, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import Problem, SelectedEffect, build_problem
 
@@ -97,3 +97,24 @@ def test_a_wander_of_rows_stays_where_other_rows_are_predicted_better(
     blocks, problem = rows_that_wander(wander, in_order)
     hypothesis = evaluate(problem, (SelectedEffect(0, LARGE),), (1,), NOISE)
     assert predicted_better(problem, blocks, hypothesis, 0, np.array([2])) is better
+
+
+def test_masses_that_are_off_do_not_go_on_giving_way_in_place_of_a_name() -> None:
+    """Their columns were written around what gives way: three loads, twice as heavy, are all that it does."""
+    rng = np.random.default_rng(5)
+    by_link = rng.normal(size=(BLOCKS * ROWS, 3))
+    elsewhere = rng.normal(size=(BLOCKS * ROWS, 1 + FRAMES))
+    X = np.column_stack([elsewhere, by_link.sum(axis=1), 0.5 * by_link])
+    y = 0.5 * by_link @ [1.0, 1.05, 0.95] + 0.2 * X[:, 2] + rng.normal(0, NOISE, len(X))
+    little = ToleranceFamily("elsewhere", np.array([2]), np.ones(1), (0.0, 0.2))
+    masses = ToleranceFamily("masses", np.arange(4, 7), 0.1 * np.ones(3), (1.0,))
+    through = Companion(masses, frozenset({0}), frozenset({0}))
+    bends = Candidate("bends", "here", np.array([3]), np.ones(1))
+    space = ModelSpace(np.arange(FRAMES), (little,), (bends,), companions=(through,))
+    parts = np.split(np.arange(len(X)), BLOCKS)
+    blocks = [NormalEquations(X[r].T @ X[r], X[r].T @ y[r], float(y[r] @ y[r]), float(len(r))) for r in parts]
+    problem = build_problem(space, total(blocks), 0.5 * NOISE)
+    found = evaluate(problem, (SelectedEffect(0, LARGE),), (1,), NOISE)
+    assert found.log_posterior - evaluate(problem, (), (1,), NOISE).log_posterior > 20
+    (gain,) = held_out_gains(problem, blocks, found, [((), (1,))])
+    assert gain > 0.9 * np.sum((0.5 * by_link @ [1.0, 1.05, 0.95]) ** 2) / NOISE**2

@@ -54,6 +54,21 @@ def test_what_a_curve_leaves_open_hides_nothing() -> None:
     assert told([1.0], taken_up=True) == {0}
 
 
+def test_however_many_the_rows_leave_open_they_hide_none() -> None:
+    """In a planar arm base and tool take up most values of its links: these are no evidence of how large all are."""
+    rng = np.random.default_rng(8)
+    X = rng.normal(size=(ROWS, FRAMES + MEMBERS))
+    family = FRAMES + np.arange(MEMBERS)
+    X[:, family[3:]] = 1e-5 * X[:, [0] * (MEMBERS - 3)]
+    y = X[:, family] @ np.array([0.65, *[USUAL] * (MEMBERS - 1)]) + rng.normal(0, NOISE, ROWS)
+    geometry = ToleranceFamily("geometric", family, np.ones(MEMBERS), (0.0, 0.3, 1.0))
+    members = tuple(Candidate(f"member {n}", f"here {n}", family[[n]], np.ones(1)) for n in range(MEMBERS))
+    equations = NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(ROWS))
+    problem = build_problem(ModelSpace(np.arange(FRAMES), (geometry,), members), equations, NOISE)
+    found = evaluate(problem, (), (1,), NOISE)
+    assert set(_promoted(problem, found).candidates) == {0}
+
+
 @pytest.mark.parametrize("background", [2, 0], ids=["a little wrong everywhere", "right elsewhere"])
 def test_a_curve_that_is_not_worth_its_name_leaves_the_law_that_it_was(background: int) -> None:
     """A zero a hundred times as large as others is in no background: without the curve it would be lost."""

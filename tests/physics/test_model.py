@@ -47,6 +47,19 @@ def test_a_model_read_back_predicts_the_same(name: str, tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("name", ARMS)
+def test_whatever_can_be_fitted_can_be_read_back(name: str, tmp_path: Path) -> None:
+    """Every variant of every effect and of the small errors; drivers of drivers among them."""
+    arm = arm_named(name)
+    table = full_table(arm, 40, 4)
+    families = backgrounds(arm, table).values()
+    all_of_them = [*library(arm, table), *(placed for family in families for placed in family)]
+    parts = tuple(Part(placed, np.full(len(placed.terms), 1e-6)) for placed in all_of_them)
+    save_model(tmp_path / "model.yaml", FittedModel(arm, {}, (), parts, ()))
+    read = load_model(tmp_path / "model.yaml").parts
+    assert [part.placed.terms for part in read] == [placed.terms for placed in all_of_them]
+
+
 def test_effects_move_the_prediction_at_all(tmp_path: Path) -> None:
     model = model_with_everything("six-axis", seed=4)
     table = full_table(model.arm, 25, seed=9)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from armscope.calibration.geometry import State
+from armscope.calibration.geometry import Posed, State
 from armscope.calibration.model import set_up
 from armscope.check.constants import WRONG_GRAVITY
 from armscope.check.plain_errors import drive_columns
@@ -57,10 +57,10 @@ AROUND = "against gravity"
 
 @dataclass(frozen=True, eq=False)
 class _Giving:
-    """Joints that give way to gravity along each axis of the base, beyond geometry and drives."""
+    """Joints that give way to gravity along each axis of the base, beyond geometry, drives and the target."""
 
     alike: Array  # (3, m, 3, m) products of what they do
-    beyond: Array  # the same of what is left of it beyond geometry and drives
+    beyond: Array  # the same of what is left of it beyond geometry, drives and the target
     towards: Array  # (3, m) products of that with what geometry and drives leave of the points
     square: float  # of what they leave, m^2
     free: int  # how many numbers of it are free
@@ -71,7 +71,8 @@ class _Giving:
         rows = set_up(arm, table)
         posed, free = rows.posed(state), rows.free("compliance")
         fixed = rows.jacobian(state, posed, free)[:, : -arm.n_motors]
-        geometry = np.hstack([fixed, drive_columns(arm, posed, table.motor_angles)])
+        drives = drive_columns(arm, posed, table.motor_angles)
+        geometry = np.hstack([fixed, drives, _target_columns(arm, posed)])
         spanned, size, _ = np.linalg.svd(geometry, full_matrices=False)
         spanned = spanned[:, size > WRONG_GRAVITY.left_of_column**2 * size[0]]
         left = posed.left.ravel() - spanned @ (spanned.T @ posed.left.ravel())
@@ -132,6 +133,16 @@ def _told(best: Array, way: str, stated: float, explained: float) -> Suspicion:
     told = " Is it mounted on a wall, or on a slope? `armscope diagnose --estimate-gravity` tells how it leans."
     mounted = "" if way == AROUND else told
     return Suspicion("hint", statement, f"{cure}{mounted}", GRAVITY)
+
+
+def _target_columns(arm: Arm, posed: Posed) -> Array:
+    """(3 N, 9) what a target does on the tool that leans with its own weight, as a loose nest or a soft holder lets it.
+
+    Gravity moves it as if the last joints gave way, and by chance as if they pushed.
+    """
+    turns = posed.frames.tool_rotation
+    weight = np.einsum("nji,j->ni", turns, arm.gravity / np.linalg.norm(arm.gravity))
+    return np.asarray(np.einsum("nir,nc->nirc", turns, weight).reshape(-1, 9))
 
 
 def _squares_explained(alike: Array, towards: Array) -> float:

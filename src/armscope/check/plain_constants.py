@@ -9,13 +9,18 @@ from armscope.core.constants import Constants
 
 @dataclass(frozen=True)
 class Leading(Constants):
-    """When a column of the side of approach has the wrong sign."""
+    """When a column of the side of approach has the wrong sign, or is another joint's."""
 
     standard_errors: float = 10.0
     """below zero at which play is told as one of the wrong sign; measured: of 11 simulated tables with such columns two
     had signs turned round, which were 25 and 94 below; no joint of the others was by more than 2"""
     both_sides: float = 1.5
     """between two rows' sides from which a joint is approached from both; derived: sides are -1 and +1"""
+    agrees: float = 0.95
+    """of rows in which a side is that of a joint's motion from the row before, from which it is that joint's;
+    judgement: nearly all, some rows being measured again or out of order"""
+    fewest_rows: int = 20
+    """that tell both [rows]; derived: of 20 tossed coins 19 are alike for one pair of columns in 50,000"""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 from armscope.calibration.fit import placed, robust_least_squares
 from armscope.calibration.geometry import State
 from armscope.calibration.model import SetUp, set_up
-from armscope.check.approach import leading_joints
+from armscope.check.approach import exchanged_sides, leading_joints
 from armscope.check.common_mistakes import MIRRORED, Trial, trials
 from armscope.check.constants import TRIALS
 from armscope.check.gravity import gravity_mistake
@@ -83,7 +83,8 @@ def against_arm(arm: Arm, recordings: Recordings) -> Consistency:
         found += _doubtful(arm, recordings, misfit) if share > TRIALS.doubtful else []
         found += better_arm(arm, some, misfit) + _too_coarse(arm, misfit) + gravity_mistake(arm, some, state)
         found += (
-            leading_joints(arm, some, state)
+            exchanged_sides(recordings)
+            + leading_joints(arm, some, state)
             + not_at_rest(arm, recordings, state)
             + rows_far_off(arm, recordings, _placed_by_most)
         )

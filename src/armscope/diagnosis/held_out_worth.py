@@ -7,6 +7,7 @@ once without each. What makes held-out rows worse is no cause, whatever the evid
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence, Set
+from dataclasses import replace
 
 import numpy as np
 
@@ -155,8 +156,36 @@ def held_out_gains(
         (others,) in squares of the hypothesis' noise, summed over all rows; zeros where rows are too few to hold out.
     """
     readings = [(hypothesis.chosen, hypothesis.background), *others]
-    errors = held_out_errors(problem, blocks, readings, hypothesis.noise).sum(axis=0)
+    alone, left = without_companions(problem, blocks, hypothesis)
+    errors = held_out_errors(alone, left, readings, hypothesis.noise).sum(axis=0)
     return np.asarray((errors[1:] - errors[0]) / hypothesis.noise**2)
+
+
+def without_companions(
+    problem: Problem, blocks: Sequence[NormalEquations], hypothesis: Hypothesis
+) -> tuple[Problem, list[NormalEquations]]:
+    """Sums less what companions explain in a hypothesis, which then are as it has them in whatever is asked.
+
+    Masses that are off are so in every part of the rows. And their errors were written around what gives way in the
+    hypothesis: free, they would go on giving way in place of a name that is taken out, heavier by all there is.
+
+    Args:
+        problem: the sums of all rows, priors and costs.
+        blocks: sums of blocks of rows.
+        hypothesis: chosen on all rows.
+
+    Returns:
+        The problem without companions, and the blocks.
+    """
+    joined = [c for c in problem.space.companions if c.joins(hypothesis.candidates, hypothesis.background)]
+    if not joined:
+        return problem, list(blocks)
+    found = np.zeros(len(problem.scale))
+    for companion in joined:
+        found[companion.family.columns] = hypothesis.means(companion.family.columns)
+    values = found / problem.scale
+    alone = replace(problem, space=replace(problem.space, companions=()))
+    return alone, [NormalEquations(part.G, part.b - part.G @ values, part.rss(values), part.n) for part in blocks]
 
 
 def held_out_errors(

@@ -186,7 +186,8 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int, named:
     """How many times larger a candidate's largest value is than the usual one of its family's columns without a name.
 
     Values are measured in their tolerances, and those that pay for being there also by what they do at the tool: how
-    a gear's waves fall with their number is a guess. What is uncertain of the others counts as theirs.
+    a gear's waves fall with their number is a guess. What the rows leave open of the others says nothing of their
+    size, however many of them do: it counts as one value as large as the family, which the one in question has made so.
     """
     own = problem.space.candidates[number].columns
     times = [0.0]
@@ -196,8 +197,12 @@ def _beyond_family(problem: Problem, hypothesis: Hypothesis, number: int, named:
             continue
         variance = np.zeros(len(problem.scale))
         variance[family.columns] = family.prior_variance(size, problem.scale)
+        uncertain = np.minimum(hypothesis.variances(others), variance[others])
+        left_open = float(np.sum(uncertain / variance[others]))
+        counted = min(1.0, 1 / left_open)
         for unit in (variance, np.ones_like(variance)) if family.is_priced else (variance,):
-            usual = np.mean((hypothesis.means(others) ** 2 + hypothesis.variances(others)) / unit[others])
+            squares = np.sum((hypothesis.means(others) ** 2 + counted * uncertain) / unit[others])
+            usual = squares / (len(others) - (1 - counted) * left_open)
             times.append(float(np.max(np.abs(hypothesis.means(own)) / np.sqrt(usual * unit[own]))))
     return max(times)
 

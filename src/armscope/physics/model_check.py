@@ -159,7 +159,7 @@ class Reader:
 
     def _argument(self, kind: str, name: str, value: Any, place: str, depth: int) -> object:
         """An argument of a driver by what it is called."""
-        if name in ("source", "load"):
+        if name in _drivers_among(kind):
             return self._driver(value, place, depth + 1)
         if name in ("run", "target", *RUNS):
             if isinstance(value, str):
@@ -191,3 +191,9 @@ class Reader:
         if abs(value) > LARGEST_ARGUMENT:
             raise InputError(self.source, place, value, f"no number here is beyond {LARGEST_ARGUMENT:g}")
         return float(value)
+
+
+def _drivers_among(kind: str) -> set[str]:
+    """Which arguments of a driver are drivers themselves, by the function that evaluates it."""
+    parameters = inspect.signature(drivers.KINDS[kind].values).parameters.values()
+    return {each.name for each in parameters if each.annotation in (Driver, Driver.__name__)}

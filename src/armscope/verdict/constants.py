@@ -57,6 +57,10 @@ class OrderRules(Constants):
     """share of the error within which fewer causes do as well as more; judgement: as least_gain"""
     tried_together: int = 8
     """causes of which all sets are tried: those that move most; judgement: of speed, 255 sets"""
+    moves_that_way: float = 0.01
+    """of how far motors move the tool the way they do most, below which they do not move it another way; judgement: a
+    milliradian of twist would lift the tool of a planar arm by a thousandth; a command a hundred times what it corrects
+    is none"""
     least_turn_rad: float = 5e-5
     """turn of a jump below which it is not told [rad]; judgement: at a metre it is less than what jumps are measured
     by"""

@@ -27,6 +27,7 @@ from armscope.verdict.entered_together import (
 from armscope.verdict.family_cures import cure_of_family, growth_in_words, warms
 from armscope.verdict.importance import minor_and_told
 from armscope.verdict.instruments_own import SETTLE_FIRST, beside_the_instrument, instrument_is_open
+from armscope.verdict.out_of_reach import out_of_reach
 from armscope.verdict.scatter_steps import beside_scatter, finding_out
 from armscope.verdict.tasks import Task, task_of
 from armscope.verdict.wording import GROWS, SMALL, capitalised, places_in_words
@@ -64,14 +65,16 @@ class WorkOrder:
     tasks: tuple[Task, ...]
     besides: tuple[str, ...]  # in words, causes that leave the error as it is in their turn, and what to do about them
     instrument_first: bool = False  # whether the instrument is to be settled before commands are corrected
+    out_of_reach: str = ""  # what no command takes out, in words
 
     @property
     def caution(self) -> str:
-        """What must not be done together; "" where there is one step, or none that corrects commands by the model."""
+        """What must not be done together, and what no command takes out; "" where neither is to be said."""
         by_model = any(COMPENSATE in f"{task.instruction} {task.cure}" for task in self.tasks)
         if by_model and self.instrument_first:
             return SETTLE_FIRST
-        return NOT_ON_TOP if by_model and len(self.tasks) > 1 else ""
+        cautions = (NOT_ON_TOP if by_model and len(self.tasks) > 1 else "", self.out_of_reach)
+        return " ".join(each for each in cautions if each)
 
     @property
     def by_calibration(self) -> str:
@@ -161,7 +164,7 @@ def work_order(verdict: Diagnosis, worth: Contributions) -> WorkOrder:
         moving = []
     lost = [f"{what}. {NO_GAIN}" for what in moving]
     waiting_on = (f"{task.what}. {task.cure}" for task in besides)
-    return WorkOrder((*done, *to_find), (*lost, *waiting_on), instrument_is_open(verdict))
+    return WorkOrder((*done, *to_find), (*lost, *waiting_on), instrument_is_open(verdict), out_of_reach(verdict, worth))
 
 
 def _told_together(

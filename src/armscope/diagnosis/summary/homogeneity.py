@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import chdtri
@@ -11,6 +11,7 @@ from scipy.special import chdtri
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Indices
 from armscope.diagnosis.constants import FOLDING
+from armscope.diagnosis.held_out_worth import without_companions
 from armscope.diagnosis.state import DiagnosisState
 from armscope.diagnosis.summary.constants import TELLING
 from armscope.fitting.block_sums import normal_equations_by_block
@@ -101,11 +102,8 @@ def _agreements(
     so little that it makes no difference."""
     # a line alone, without what is left of its curve: that could be another's line in each part
     lines = tuple(c for c in best.chosen if problem.space.candidates[c.candidate].variant != REST_OF_LOAD)
-    shared = replace(problem, space=replace(problem.space, companions=()))
-    alone = [
-        evaluate(_without_companions(shared.with_equations(part), problem, best), lines, best.background, best.noise)
-        for part in parts
-    ]
+    shared, parts = without_companions(problem, parts, best)
+    alone = [evaluate(shared.with_equations(part), lines, best.background, best.noise) for part in parts]
     agree = {}
     for candidate in asked:
         columns = problem.space.candidates[candidate].columns
@@ -117,17 +115,6 @@ def _agreements(
         by_chance = misfit < chdtri(values.size - values.shape[1], chance)
         agree[candidate] = bool(by_chance or apart < TELLING.same_size * np.linalg.norm(mean))
     return agree
-
-
-def _without_companions(part: Problem, problem: Problem, best: Hypothesis) -> Problem:
-    """A part's sums less what companions explain on all rows: masses that are off are so in every part."""
-    joined = [c.family.columns for c in problem.space.companions if c.joins(best.candidates, best.background)]
-    found = np.zeros(len(problem.scale))
-    for columns in joined:
-        found[columns] = best.means(columns)
-    sums = part.equations
-    left = NormalEquations(sums.G, sums.b - sums.G @ found, sums.rss(found), sums.n)
-    return replace(part, equations=left)
 
 
 def _sentence(count: int, kind: str, agrees: bool) -> str:
