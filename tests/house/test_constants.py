@@ -2,7 +2,10 @@
 
 import ast
 import importlib
+import importlib.util
+import linecache
 import math
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +14,7 @@ import pytest
 from scipy.stats import chi
 from tools import constants
 
-from armscope.core.constants import BASES, Constants, Entry, constant, entries
+from armscope.core.constants import BASES, Constants, Entry, entries
 from armscope.inference.constants import BUDGET, PRIORS
 from armscope.measurement.constants import NOISE, WEIGHTS
 
@@ -47,12 +50,34 @@ def test_no_number_decides_without_them(room: str) -> None:
     assert not bare
 
 
+def _loaded(file: Path) -> type[Constants]:
+    spec = importlib.util.spec_from_file_location("group", file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["group"] = module  # where a dataclass looks up its annotations
+    linecache.checkcache(str(file))
+    spec.loader.exec_module(module)
+    group: type[Constants] = module.Group
+    return group
+
+
 def test_a_number_without_a_basis_is_noticed(tmp_path: Path) -> None:
-    for basis in ("", "judgement", "judgement: ", "felt right: yes"):
+    for said in (
+        "how much",
+        "how much; judgement",
+        "how much; judgement: ",
+        "how much; felt right: yes",
+        "; convention",
+    ):
+        group = tmp_path / "group.py"
+        group.write_text(
+            "from dataclasses import dataclass\nfrom armscope.core.constants import Constants\n\n\n@dataclass(frozen=True)\n"
+            f'class Group(Constants):\n    """A group."""\n\n    much: float = 1.0\n    """{said}"""\n',
+            encoding="utf-8",
+        )
         with pytest.raises(ValueError, match="basis"):
-            constant(1.0, "how much", basis)
-    with pytest.raises(ValueError, match="basis"):
-        constant(1.0, "", "convention")
+            entries(_loaded(group))
     module = tmp_path / "module.py"
     module.write_text(
         'A = 3\nB, C = 1.0, 2\nD: float = -1e-3\nE = "word"\nF = f(3)\n__all__ = ["A"]\n', encoding="utf-8"

@@ -18,11 +18,8 @@ import ast
 import inspect
 import re
 import textwrap
-from dataclasses import Field, dataclass, field, fields
+from dataclasses import Field, dataclass, fields
 from itertools import pairwise
-from typing import TypeVar
-
-Value = TypeVar("Value")
 
 BASES = ("measured", "derived", "convention", "judgement")
 """What a value may rest on: an experiment that is named, a formula, what everybody does, or somebody's view."""
@@ -46,27 +43,6 @@ class Entry:
     basis: str
 
 
-def constant(value: Value, meaning: str, basis: str, *, unit: str = "") -> Value:
-    """A field of `Constants`.
-
-    Args:
-        value: the number, or a tuple of them.
-        meaning: what it is, in a few words.
-        basis: one of `BASES`, a colon, and the experiment, the formula or the reason ("convention" may stand alone).
-        unit: of the value; empty for pure numbers.
-
-    Returns:
-        The field; for a reader of types it is the value.
-
-    Raises:
-        ValueError: no meaning, or a basis that is none.
-    """
-    kind, colon, reason = basis.partition(": ")
-    if not meaning or kind not in BASES or (kind != "convention" and not (colon and reason.strip())):
-        raise ValueError(f"{meaning or value!r}: basis {basis!r} must be one of {', '.join(BASES)}, with a reason")
-    return field(default=value, metadata={"meaning": meaning, "basis": basis, "unit": unit})
-
-
 def entries(group: type[Constants]) -> list[Entry]:
     """A group's numbers, in its order. Raises ValueError: one without a meaning or a basis."""
     body = ast.parse(textwrap.dedent(inspect.getsource(group))).body[0]
@@ -76,8 +52,6 @@ def entries(group: type[Constants]) -> list[Entry]:
 
 
 def _entry(number: Field[object], below: ast.stmt | None) -> Entry:
-    if number.metadata:
-        return Entry(name=number.name, value=number.default, **number.metadata)
     said = ast.literal_eval(below.value) if isinstance(below, ast.Expr) else ""
     found = _SAID.fullmatch(" ".join(said.split()))
     if found is None:

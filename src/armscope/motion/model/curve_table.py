@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from armscope.core.constants import Constants, constant
+from armscope.core.constants import Constants
 from armscope.motion.library.laws import CLINGING, Law
 from armscope.motion.library.remedies_of_curves import unit_of
 from armscope.motion.model.fitted import MotionModel
@@ -19,9 +19,8 @@ from armscope.motion.model.shapes import free_curve, limits_of
 class CurveFile(Constants):
     """What curves.csv holds."""
 
-    points: int = constant(
-        201, "of each curve", "derived: straight lines between them are off by 1e-4 of a curve of nine knots or fewer"
-    )
+    points: int = 201
+    """of each curve; derived: straight lines between them are off by 1e-4 of a curve of nine knots or fewer"""
 
 
 FILE = CurveFile()
