@@ -50,6 +50,20 @@ def test_no_number_decides_without_them(room: str) -> None:
     assert not bare
 
 
+GROUP = '''
+from dataclasses import dataclass
+from armscope.core.constants import Constants
+
+
+@dataclass(frozen=True)
+class Group(Constants):
+    """A group."""
+
+    much: float = 1.0
+    """{said}"""
+'''
+
+
 def _loaded(file: Path) -> type[Constants]:
     spec = importlib.util.spec_from_file_location("group", file)
     assert spec is not None
@@ -63,19 +77,9 @@ def _loaded(file: Path) -> type[Constants]:
 
 
 def test_a_number_without_a_basis_is_noticed(tmp_path: Path) -> None:
-    for said in (
-        "how much",
-        "how much; judgement",
-        "how much; judgement: ",
-        "how much; felt right: yes",
-        "; convention",
-    ):
+    for said in ("how much", "how much; judgement", "how much; judgement: ", "how much; felt right: yes", "; measured"):
         group = tmp_path / "group.py"
-        group.write_text(
-            "from dataclasses import dataclass\nfrom armscope.core.constants import Constants\n\n\n@dataclass(frozen=True)\n"
-            f'class Group(Constants):\n    """A group."""\n\n    much: float = 1.0\n    """{said}"""\n',
-            encoding="utf-8",
-        )
+        group.write_text(GROUP.format(said=said), encoding="utf-8")
         with pytest.raises(ValueError, match="basis"):
             entries(_loaded(group))
     module = tmp_path / "module.py"

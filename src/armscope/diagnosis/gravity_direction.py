@@ -40,18 +40,13 @@ HEMISPHERE = 2 * np.pi
 
 @dataclass(frozen=True, eq=False)
 class GravityEstimate:
-    """Gravity's direction where it is other than stated.
+    """Gravity's direction where it is other than stated."""
 
-    Attributes:
-        arm: with gravity as estimated.
-        angle, stderr: between stated and estimated direction, rad.
-        evidence: log odds for another direction than the stated one, nats.
-    """
-
-    arm: Arm
+    arm: Arm  # with gravity as estimated
+    # angle, stderr: between stated and estimated direction, rad
     angle: float
     stderr: float
-    evidence: float
+    evidence: float  # log odds for another direction than the stated one, nats
 
 
 def estimate_gravity_direction(

@@ -26,17 +26,11 @@ from armscope.verdict.schema import HeldOut, WaterfallStep
 
 @dataclass(frozen=True, eq=False)
 class RowSplit:
-    """How rows are held out.
+    """How rows are held out."""
 
-    Attributes:
-        of_row: (N,) number of each row's block, from 0.
-        fold: (blocks,) number of each block's fold; blocks of one fold are held out together.
-        grouped_by: what is never parted: "configuration" or "run".
-    """
-
-    of_row: Indices
-    fold: Indices
-    grouped_by: str
+    of_row: Indices  # (N,) number of each row's block, from 0
+    fold: Indices  # (blocks,) number of each block's fold; blocks of one fold are held out together
+    grouped_by: str  # what is never parted: "configuration" or "run"
 
     def within_runs(self) -> RowSplit:
         """The same blocks with a part of every run in each fold, where runs have several blocks."""

@@ -23,20 +23,13 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True, eq=False)
 class LinearisedRows:
-    """Rows at a point of linearisation.
+    """Rows at a point of linearisation."""
 
-    Attributes:
-        point: the model at which columns were taken.
-        table: the rows, with what is already known of them.
-        weights: of the fit.
-        layout: of the columns.
-        untold: columns that were fitted, but foretell nothing of other rows: readings are judged without them.
-    """
-
-    point: FittedModel
-    table: LinearisedTable
-    weights: RowWeights
-    layout: ParameterLayout
+    point: FittedModel  # the model at which columns were taken
+    table: LinearisedTable  # the rows, with what is already known of them
+    weights: RowWeights  # of the fit
+    layout: ParameterLayout  # of the columns
+    # columns that were fitted, but foretell nothing of other rows: readings are judged without them
     untold: Indices = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     def some(self, which: Indices) -> LinearisedRows:

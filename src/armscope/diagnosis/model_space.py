@@ -60,15 +60,10 @@ SHARES = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class EffectSpace(ModelSpace):
-    """A model space of which it is known what the candidates are.
+    """A model space of which it is known what the candidates are."""
 
-    Attributes:
-        placed: the effect behind each candidate.
-        layout: the terms behind the columns.
-    """
-
-    placed: tuple[Placed, ...]
-    layout: ParameterLayout
+    placed: tuple[Placed, ...]  # the effect behind each candidate
+    layout: ParameterLayout  # the terms behind the columns
 
 
 def build_model_space(

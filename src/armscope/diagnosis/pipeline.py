@@ -47,26 +47,18 @@ TOO_MUCH = " A controller that makes up for too much of the load looks the same,
 
 @dataclass(frozen=True)
 class Settings:
-    """What a user may ask for.
+    """What a user may ask for."""
 
-    Attributes:
-        seed: of folds and resampling.
-        tool_per_run: whether the tool offset is free in every run, not only per target.
-        resamples: how many times rows are resampled for the inclusion frequencies; 0 leaves them out.
-        cross_validation: whether the procedure is validated on held-out rows.
-        orientation: whether measured orientations are used, where there are some.
-        estimate_gravity: whether gravity's direction is free from the start; otherwise it is as the robot's description
-            states, unless a leaning one does clearly better than an effect that would be named.
-        floor_mm: height in the base frame below which the poses to measure next may not reach; None: as low as the
-            arm was in the recordings.
-    """
-
-    seed: int = 0
-    tool_per_run: bool = False
-    resamples: int = 10
-    cross_validation: bool = True
+    seed: int = 0  # of folds and resampling
+    tool_per_run: bool = False  # whether the tool offset is free in every run, not only per target
+    resamples: int = 10  # how many times rows are resampled for the inclusion frequencies; 0 leaves them out
+    cross_validation: bool = True  # whether the procedure is validated on held-out rows
+    # whether gravity's direction is free from the start; otherwise it is as the robot's description states, unless a
+    # leaning one does clearly better than an effect that would be named
     estimate_gravity: bool = False
-    orientation: bool = True
+    orientation: bool = True  # whether measured orientations are used, where there are some
+    # height in the base frame below which the poses to measure next may not reach; None: as low as the arm was in the
+    # recordings
     floor_mm: float | None = None
 
     @property

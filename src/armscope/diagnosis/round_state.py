@@ -16,15 +16,10 @@ from armscope.measurement.row_weights import RowWeights
 
 @dataclass(frozen=True, eq=False)
 class RoundState:
-    """How a round ended.
+    """How a round ended."""
 
-    Attributes:
-        effects: labels of what was chosen.
-        suspect: (N,) rows that do not count.
-    """
-
-    effects: frozenset[str]
-    suspect: NDArray[np.bool_]
+    effects: frozenset[str]  # labels of what was chosen
+    suspect: NDArray[np.bool_]  # (N,) rows that do not count
 
     @staticmethod
     def of(chosen: Iterable[Candidate], weights: RowWeights) -> RoundState:

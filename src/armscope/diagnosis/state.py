@@ -21,51 +21,29 @@ from armscope.verdict.schema import Notice
 
 @dataclass(frozen=True, eq=False)
 class Selected:
-    """Where the rounds ended.
+    """Where the rounds ended."""
 
-    Attributes:
-        space: what competed.
-        problem: the normal equations and priors of the last round.
-        blocks: its normal equations by block of rows.
-        point: where they were linearised.
-        found: the best hypothesis.
-        best: the same with names.
-        fit: the exact fit of ``best``.
-        scatter: of motors that stand elsewhere each time.
-        growth: of the noise with the distance.
-        table: the rows, with what the rounds computed on them.
-    """
-
-    space: EffectSpace
-    problem: Problem
-    blocks: list[NormalEquations]
-    point: FittedModel
-    found: Hypothesis
-    best: Hypothesis
-    fit: Refit
-    scatter: tuple[Scattered, ...]
-    growth: Growth | None
-    table: LinearisedTable
+    space: EffectSpace  # what competed
+    problem: Problem  # the normal equations and priors of the last round
+    blocks: list[NormalEquations]  # its normal equations by block of rows
+    point: FittedModel  # where they were linearised
+    found: Hypothesis  # the best hypothesis
+    best: Hypothesis  # the same with names
+    fit: Refit  # the exact fit of ``best``
+    scatter: tuple[Scattered, ...]  # of motors that stand elsewhere each time
+    growth: Growth | None  # of the noise with the distance
+    table: LinearisedTable  # the rows, with what the rounds computed on them
 
 
 @dataclass(frozen=True, eq=False)
 class DiagnosisState(Selected):
-    """Where the rounds of selection ended, and what they started from.
+    """Where the rounds of selection ended, and what they started from."""
 
-    Attributes:
-        start: the arm with its frames fitted, without effects.
-        recordings: the rows.
-        first: what the free frames leave of them.
-        noise: what was known of it beforehand.
-        notices: said already, before anything was selected.
-        split: which block and fold each row is in.
-        floor: height in the base frame below which no pose may be asked for, m; None: that is not known.
-    """
-
-    start: FittedModel
-    recordings: Recordings
-    first: ChannelResiduals
-    noise: Noise
-    notices: tuple[Notice, ...]
-    split: RowSplit
+    start: FittedModel  # the arm with its frames fitted, without effects
+    recordings: Recordings  # the rows
+    first: ChannelResiduals  # what the free frames leave of them
+    noise: Noise  # what was known of it beforehand
+    notices: tuple[Notice, ...]  # said already, before anything was selected
+    split: RowSplit  # which block and fold each row is in
+    # height in the base frame below which no pose may be asked for, m; None: that is not known
     floor: float | None = None

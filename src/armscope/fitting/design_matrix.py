@@ -56,17 +56,11 @@ class SharedDirectionGroup:
 
 @dataclass(frozen=True, eq=False)
 class ColumnOrder:
-    """Terms sorted into groups and others.
+    """Terms sorted into groups and others."""
 
-    Attributes:
-        others: the terms that are in no group.
-        groups: the groups.
-        order: (p,) numbers of all terms: the others first, then group by group.
-    """
-
-    others: tuple[Term, ...]
-    groups: tuple[SharedDirectionGroup, ...]
-    order: Indices
+    others: tuple[Term, ...]  # the terms that are in no group
+    groups: tuple[SharedDirectionGroup, ...]  # the groups
+    order: Indices  # (p,) numbers of all terms: the others first, then group by group
 
     @property
     def back(self) -> Indices:
@@ -118,19 +112,12 @@ def _group(terms: Sequence[Term], direction: Direction, members: list[int]) -> S
 
 @dataclass(frozen=True, eq=False)
 class StructuredDesign:
-    """Columns in a given order on n rows of c numbers, mm per SI unit, as all channels see them.
+    """Columns in a given order on n rows of c numbers, mm per SI unit, as all channels see them."""
 
-    Attributes:
-        column_order: of the terms.
-        others: (o, c, n) columns of the terms that are in no group.
-        sensitivities: (c, n) of each group, mm.
-        drivers: (k, n) of each group's members.
-    """
-
-    column_order: ColumnOrder
-    others: Array
-    sensitivities: tuple[Array, ...]
-    drivers: tuple[Array, ...]
+    column_order: ColumnOrder  # of the terms
+    others: Array  # (o, c, n) columns of the terms that are in no group
+    sensitivities: tuple[Array, ...]  # (c, n) of each group, mm
+    drivers: tuple[Array, ...]  # (k, n) of each group's members
 
     def at(self, rows: slice | Indices) -> StructuredDesign:
         """The same columns on some of the rows."""

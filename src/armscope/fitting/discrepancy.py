@@ -42,17 +42,11 @@ from armscope.verdict.schema import Notice
 
 @dataclass(frozen=True)
 class Process:
-    """One kind of error that no effect follows.
+    """One kind of error that no effect follows."""
 
-    Attributes:
-        what: in words.
-        rms_mm: its RMS at the tool, per axis, in what the fit leaves.
-        evidence: for it against none, its price as one of several paid, nats.
-    """
-
-    what: str
-    rms_mm: float
-    evidence: float
+    what: str  # in words
+    rms_mm: float  # its RMS at the tool, per axis, in what the fit leaves
+    evidence: float  # for it against none, its price as one of several paid, nats
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,23 +117,14 @@ def _not_below(least: Array, covariance: Array) -> Array:
 
 
 class _Sums(NamedTuple):
-    """Sums over rows of the columns Z of all processes, each process of 1 mm RMS at the tool.
+    """Sums over rows of the columns Z of all processes, each process of 1 mm RMS at the tool."""
 
-    Attributes:
-        normal: (p, p) X'WX of the fit's own columns.
-        own: (m, m) Z'WZ.
-        cross: (p, m) X'WZ.
-        pull: (m,) Z'Wr.
-        of: each process' columns.
-        numbers: how many numbers the rows hold.
-    """
-
-    normal: Array
-    own: Array
-    cross: Array
-    pull: Array
-    of: dict[str, slice]
-    numbers: int
+    normal: Array  # (p, p) X'WX of the fit's own columns
+    own: Array  # (m, m) Z'WZ
+    cross: Array  # (p, m) X'WZ
+    pull: Array  # (m,) Z'Wr
+    of: dict[str, slice]  # each process' columns
+    numbers: int  # how many numbers the rows hold
 
 
 def _sums(fit: Refit, recordings: Recordings, rows: Indices) -> _Sums:

@@ -17,20 +17,14 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True, eq=False)
 class ExchangedTool:
-    """Tools of a target that lie elsewhere on the flange from run to run.
+    """Tools of a target that lie elsewhere on the flange from run to run."""
 
-    Attributes:
-        model: the arm with its frames fitted, the tool free in every run.
-        shared_mm, own_mm: what one tool for all runs and one per run leave of the usual point, per axis.
-        point_mm: largest distance between a target's tool points; None where these are no others.
-        turn_rad: largest angle between a target's tools; None where orientations do not show any.
-    """
-
-    model: FittedModel
+    model: FittedModel  # the arm with its frames fitted, the tool free in every run
+    # shared_mm, own_mm: what one tool for all runs and one per run leave of the usual point, per axis
     shared_mm: float
     own_mm: float
-    point_mm: float | None
-    turn_rad: float | None
+    point_mm: float | None  # largest distance between a target's tool points; None where these are no others
+    turn_rad: float | None  # largest angle between a target's tools; None where orientations do not show any
 
     @property
     def apart(self) -> str:

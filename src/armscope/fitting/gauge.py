@@ -21,30 +21,19 @@ from armscope.physics.model import AsStated
 
 @dataclass(frozen=True, eq=False)
 class FrameColumns:
-    """Which columns of normal equations are free frames.
+    """Which columns of normal equations are free frames."""
 
-    Attributes:
-        frames: all of them.
-        tools: (k,) those of tool points.
-    """
-
-    frames: Indices
-    tools: Indices
+    frames: Indices  # all of them
+    tools: Indices  # (k,) those of tool points
 
 
 @dataclass(frozen=True, eq=False)
 class Gauge:
-    """Directions of tool points that the rows do not tell from the base.
+    """Directions of tool points that the rows do not tell from the base."""
 
-    Attributes:
-        directions: (k, r) orthonormal.
-        response: (p, r) what all parameters change by if tool points move along them by one metre.
-        step: (p,) to the tool points as stated.
-    """
-
-    directions: Array
-    response: Array
-    step: Array
+    directions: Array  # (k, r) orthonormal
+    response: Array  # (p, r) what all parameters change by if tool points move along them by one metre
+    step: Array  # (p,) to the tool points as stated
 
 
 def gauge(matrix: Array, information: Array, at: FrameColumns, deviation: Array, noise_mm: float) -> Gauge | None:
@@ -142,15 +131,10 @@ def _solved(matrix: Array, right: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class NamedFrames(FrameColumns):
-    """Free frames among a fit's columns, x, y, z of each tool point, and what they are called.
+    """Free frames among a fit's columns, x, y, z of each tool point, and what they are called."""
 
-    Attributes:
-        bases: columns of the bases' shifts, x, y, z of each.
-        names: of the tools, as a sentence has them.
-    """
-
-    bases: Indices
-    names: tuple[str, ...]
+    bases: Indices  # columns of the bases' shifts, x, y, z of each
+    names: tuple[str, ...]  # of the tools, as a sentence has them
 
     @classmethod
     def among(cls, terms: Sequence[Term], frames: Indices) -> NamedFrames:

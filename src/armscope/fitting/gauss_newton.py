@@ -30,17 +30,11 @@ UNSETTLED: Reason = "the largest number of steps was made"
 
 @dataclass(frozen=True, eq=False)
 class Quadratic:
-    """The penalised sum of squares about a state; its lowest point solves ``matrix @ values = right``.
+    """The penalised sum of squares about a state; its lowest point solves ``matrix @ values = right``."""
 
-    Attributes:
-        matrix: (p, p) X'WX plus the prior's precision, in any units.
-        right: (p,) X'Wy.
-        present: (p,) values at the state; zeros where values are counted from it.
-    """
-
-    matrix: Array
-    right: Array
-    present: Array
+    matrix: Array  # (p, p) X'WX plus the prior's precision, in any units
+    right: Array  # (p,) X'Wy
+    present: Array  # (p,) values at the state; zeros where values are counted from it
 
     @property
     def _scale(self) -> Array:
@@ -91,15 +85,10 @@ class Quadratic:
 
 
 class NonlinearProblem(ABC, Generic[State, Residual]):
-    """What is fitted to what.
+    """What is fitted to what."""
 
-    Attributes:
-        may_grow: a step is damped after which the misfit is more than this many times what it was.
-        least_damping: of every step; values that the rows do not tell then stay where they are.
-    """
-
-    may_grow: float = 1.0
-    least_damping: float = 0.0
+    may_grow: float = 1.0  # a step is damped after which the misfit is more than this many times what it was
+    least_damping: float = 0.0  # of every step; values that the rows do not tell then stay where they are
 
     @abstractmethod
     def residual(self, state: State) -> Residual:

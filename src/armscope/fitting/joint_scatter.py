@@ -24,19 +24,12 @@ from armscope.physics.model import FittedModel
 
 @dataclass(frozen=True)
 class Scattered:
-    """Scatter at one motor.
+    """Scatter at one motor."""
 
-    Attributes:
-        motor: counted from 1.
-        size: rad, 1-sigma.
-        evidence: for it, nats.
-        rounded: whether it is that of angles that were rounded before they were written down.
-    """
-
-    motor: int
-    size: float
-    evidence: float
-    rounded: bool = False
+    motor: int  # counted from 1
+    size: float  # rad, 1-sigma
+    evidence: float  # for it, nats
+    rounded: bool = False  # whether it is that of angles that were rounded before they were written down
 
 
 def motor_jacobians(model: FittedModel, table: Measured) -> Array:

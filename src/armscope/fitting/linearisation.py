@@ -26,17 +26,12 @@ Chunks = Iterator[tuple[Indices, Posture]]
 
 @dataclass(eq=False)
 class LinearisedTable:
-    """A table's rows with what is computed on them, chunk by chunk, for a model that they are linearised about.
+    """A table's rows with what is computed on them, chunk by chunk, for a model that they are linearised about."""
 
-    Attributes:
-        recordings: the rows.
-        channels: what was measured there; the reference comes first.
-        order: (N,) of the rows in which chunks take them, rows of one block side by side. Where it is given, what
-            drives the effects is computed once, unless the table is long, and so is how the last model stands.
-    """
-
-    recordings: Recordings
-    channels: tuple[Channel, ...] = ()
+    recordings: Recordings  # the rows
+    channels: tuple[Channel, ...] = ()  # what was measured there; the reference comes first
+    # (N,) of the rows in which chunks take them, rows of one block side by side. Where it is given, what drives the
+    # effects is computed once, unless the table is long, and so is how the last model stands
     order: Indices | None = None
     _scenes: list[tuple[Indices, Scene]] = field(default_factory=list, repr=False)
     _model: FittedModel | None = field(default=None, repr=False)

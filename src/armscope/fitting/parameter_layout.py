@@ -16,21 +16,13 @@ from armscope.physics.model import FittedModel
 
 @dataclass(frozen=True, eq=False)
 class ParameterLayout:
-    """All distinct terms that take part, and where each effect's terms stand among them.
+    """All distinct terms that take part, and where each effect's terms stand among them."""
 
-    Attributes:
-        terms: the columns, in order.
-        frames: columns of the free frames.
-        background: columns of each family's background.
-        background_scale: SI, size that each of these columns is expected to have.
-        columns: columns of each effect.
-    """
-
-    terms: tuple[Term, ...]
-    frames: Indices
-    background: tuple[Indices, ...]
-    background_scale: tuple[Array, ...]
-    columns: tuple[Indices, ...]
+    terms: tuple[Term, ...]  # the columns, in order
+    frames: Indices  # columns of the free frames
+    background: tuple[Indices, ...]  # columns of each family's background
+    background_scale: tuple[Array, ...]  # SI, size that each of these columns is expected to have
+    columns: tuple[Indices, ...]  # columns of each effect
 
     @functools.cached_property
     def column_order(self) -> ColumnOrder:

@@ -38,16 +38,11 @@ def nearest_rotation(matrix: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """Where R bases and K tools stand.
+    """Where R bases and K tools stand."""
 
-    Attributes:
-        rotations, translations: (R, 3, 3), (R, 3) m, measurement frame from arm base.
-        tools: (K, 3) offsets in the last frame, m.
-    """
-
-    rotations: Array
-    translations: Array
-    tools: Array
+    rotations: Array  # (R, 3, 3) m, measurement frame from arm base
+    translations: Array  # (R, 3) m, measurement frame from arm base
+    tools: Array  # (K, 3) offsets in the last frame, m
 
     def moved(self, step: Array) -> Frames:
         """A step further: twists (translation, rotation) of the bases in their own axes, then the tools' offsets."""
@@ -61,17 +56,12 @@ class Frames:
 
 @dataclass(frozen=True, eq=False)
 class FlangePoses:
-    """N poses of an arm's flange and the points measured there.
+    """N poses of an arm's flange and the points measured there."""
 
-    Attributes:
-        origin, turned: (N, 3) m, (N, 3, 3) what the tools' offsets are counted from, in the arm's base frame.
-        measured: (N, 3) m, measurement frame.
-        base, tool: (N,) numbers of each row's base and tool.
-    """
-
-    origin: Array
-    turned: Array
-    measured: Array
+    origin: Array  # (N, 3) m
+    turned: Array  # (N, 3, 3) what the tools' offsets are counted from, in the arm's base frame
+    measured: Array  # (N, 3) m, measurement frame
+    # base, tool: (N,) numbers of each row's base and tool
     base: Indices
     tool: Indices
 

@@ -26,29 +26,17 @@ from armscope.physics.parallel_axes import lengths_told_once
 
 @dataclass(frozen=True, eq=False)
 class Refit:
-    """An exact fit.
+    """An exact fit."""
 
-    Attributes:
-        model: the fitted model.
-        layout: of the frames, background and effects that were fitted.
-        equations: the normal equations at the solution, mm per SI unit.
-        precision: (p,) prior precision of all values, SI units.
-        covariance: (p, p) of all values, SI units.
-        noise: mm per axis.
-        effective_dof: effective number of fitted values.
-        weights: of the rows, in every channel.
-        channel_residuals: what the model leaves of every row, by channel.
-    """
-
-    model: FittedModel
-    layout: ParameterLayout
-    equations: NormalEquations
-    precision: Array
-    covariance: Array
-    noise: float
-    effective_dof: float
-    weights: RowWeights
-    channel_residuals: ChannelResiduals
+    model: FittedModel  # the fitted model
+    layout: ParameterLayout  # of the frames, background and effects that were fitted
+    equations: NormalEquations  # the normal equations at the solution, mm per SI unit
+    precision: Array  # (p,) prior precision of all values, SI units
+    covariance: Array  # (p, p) of all values, SI units
+    noise: float  # mm per axis
+    effective_dof: float  # effective number of fitted values
+    weights: RowWeights  # of the rows, in every channel
+    channel_residuals: ChannelResiduals  # what the model leaves of every row, by channel
 
     @property
     def residuals(self) -> Array:

@@ -21,14 +21,10 @@ from armscope.recordings import Recordings
 
 @dataclass(frozen=True, eq=False)
 class ComparedBases:
-    """What the bases of a table's runs say of its set-ups.
+    """What the bases of a table's runs say of its set-ups."""
 
-    Attributes:
-        set_ups: the runs of each, in order of time.
-        apart_mm: per set-up but the first, what one base for it and the one before would leave beyond their own.
-    """
-
-    set_ups: SetUps
+    set_ups: SetUps  # the runs of each, in order of time
+    # per set-up but the first, what one base for it and the one before would leave beyond their own
     apart_mm: tuple[float, ...]
 
 

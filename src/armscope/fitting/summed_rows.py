@@ -34,24 +34,15 @@ class SummedRows:
     """The N rows of a long table, and sums over all of them.
 
     Of a table that is not so long that passes over it can't be afforded, the sums save the first of them alone.
-
-    Attributes:
-        table: the rows.
-        layout: of the p columns that were summed up.
-        point: where they were linearised.
-        equations: the sums, mm per SI unit.
-        some: (n,) numbers of the rows that tell what is not linear.
-        standing_for: (n,) how many rows each of them stands for.
-        on_the_way: whether a fit is not the last one: what it leaves is then told of these rows alone.
     """
 
-    table: LinearisedTable
-    layout: ParameterLayout
-    point: FittedModel
-    equations: NormalEquations
-    some: Indices
-    standing_for: Array
-    on_the_way: bool = False
+    table: LinearisedTable  # the rows
+    layout: ParameterLayout  # of the p columns that were summed up
+    point: FittedModel  # where they were linearised
+    equations: NormalEquations  # the sums, mm per SI unit
+    some: Indices  # (n,) numbers of the rows that tell what is not linear
+    standing_for: Array  # (n,) how many rows each of them stands for
+    on_the_way: bool = False  # whether a fit is not the last one: what it leaves is then told of these rows alone
     sample: LinearisedTable = field(init=False, repr=False)
     _linear: NormalEquations | None = field(default=None, init=False, repr=False)
 

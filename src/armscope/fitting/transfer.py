@@ -32,17 +32,12 @@ BACKGROUND = "background"
 
 @dataclass(frozen=True, eq=False)
 class Transferred:
-    """How well a model holds on rows that took no part in its fit; RMS of the 3D distance over all rows, mm.
+    """How well a model holds on rows that took no part in its fit; RMS of the 3D distance over all rows, mm."""
 
-    Attributes:
-        applied: the effects that were applied, in words, and "... background" for small errors of a family.
-        left_mm: with them.
-        model: the model with the frames that it has here.
-    """
-
+    # the effects that were applied, in words, and "... background" for small errors of a family
     applied: tuple[str, ...]
-    left_mm: float
-    model: FittedModel
+    left_mm: float  # with them
+    model: FittedModel  # the model with the frames that it has here
 
 
 def transfer(

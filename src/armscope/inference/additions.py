@@ -23,18 +23,12 @@ class CandidateGroups:
     """Candidates of about as many columns, so that they are scored together.
 
     One of fewer columns than its group is filled up with columns that may not move.
-
-    Attributes:
-        problem: the normal equations and priors.
-        competing: (q,) all their columns.
-        members: (m,) candidates of each group, those of fewest columns first.
-        columns: (m, c) where their columns stand in ``competing``.
     """
 
-    problem: Problem
-    competing: Indices
-    members: tuple[Indices, ...]
-    columns: tuple[Indices, ...]
+    problem: Problem  # the normal equations and priors
+    competing: Indices  # (q,) all their columns
+    members: tuple[Indices, ...]  # (m,) candidates of each group, those of fewest columns first
+    columns: tuple[Indices, ...]  # (m, c) where their columns stand in ``competing``
 
     @functools.cached_property
     def widths(self) -> tuple[Array, ...]:
@@ -107,17 +101,11 @@ def best_additions(problem: Problem, groups: CandidateGroups, hypothesis: Hypoth
 
 @dataclass(frozen=True)
 class AskedAdditions:
-    """Which scores are asked for: others need not be computed.
+    """Which scores are asked for: others need not be computed."""
 
-    Attributes:
-        asked: (candidates,) about which the question is.
-        count: the best so many of them.
-        least: that gain more than this, nats.
-    """
-
-    asked: NDArray[np.bool_]
-    count: int
-    least: float
+    asked: NDArray[np.bool_]  # (candidates,) about which the question is
+    count: int  # the best so many of them
+    least: float  # that gain more than this, nats
 
     def bar(self, scores: Array) -> float:
         """What a candidate must beat once some have scores, nats."""

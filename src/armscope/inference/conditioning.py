@@ -25,19 +25,12 @@ from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
 @dataclass(frozen=True, eq=False)
 class ConditionedColumns:
-    """What a hypothesis leaves of q columns once its posterior is conditioned on.
+    """What a hypothesis leaves of q columns once its posterior is conditioned on."""
 
-    Attributes:
-        columns: (q,) of the space.
-        b: (q,) their products with the response.
-        taken: (q, k) factor^-1 X'WX: what the hypothesis takes of them.
-        returned: (q, r) what it gives back for effects that are taken out of it.
-    """
-
-    columns: Indices
-    b: Array
-    taken: Array
-    returned: Array | None = None
+    columns: Indices  # (q,) of the space
+    b: Array  # (q,) their products with the response
+    taken: Array  # (q, k) factor^-1 X'WX: what the hypothesis takes of them
+    returned: Array | None = None  # (q, r) what it gives back for effects that are taken out of it
 
     def own(self, problem: Problem, at: Indices) -> Array:
         """(m, c, c) sums over rows within each of m sets (m, c) of the columns."""
@@ -74,23 +67,17 @@ def condition_on(problem: Problem, columns: Indices, hypothesis: Hypothesis) -> 
 
 @dataclass(frozen=True, eq=False)
 class LowRankUpdate:
-    """A hypothesis with smaller priors on some of its columns, or without them, at the noise as it is.
-
-    Attributes:
-        whole: the hypothesis.
-        log_posterior, rss: as of a hypothesis.
-        at: (r,) where the columns stand whose priors changed.
-        inner: (r, r) the matrix of the change of rank r: posterior covariance plus what the priors leave.
-    """
+    """A hypothesis with smaller priors on some of its columns, or without them, at the noise as it is."""
 
     settled: ClassVar[bool] = False
-    whole: Hypothesis
+    whole: Hypothesis  # the hypothesis
     chosen: tuple[SelectedEffect, ...]
     background: BackgroundSizes
+    # log_posterior, rss: as of a hypothesis
     log_posterior: float
     rss: float
-    at: Indices
-    inner: Array
+    at: Indices  # (r,) where the columns stand whose priors changed
+    inner: Array  # (r, r) the matrix of the change of rank r: posterior covariance plus what the priors leave
 
     @property
     def noise(self) -> float:

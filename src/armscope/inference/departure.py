@@ -62,30 +62,19 @@ class Known(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Departure:
-    """A hypothesis of other prior variances at a known one's noise.
+    """A hypothesis of other prior variances at a known one's noise."""
 
-    Attributes:
-        known: from which it departs.
-        log_evidence: nats.
-        rss: penalised residual sum of squares, mm^2.
-        misfit: the residual's own sum of squares, mm^2.
-        effective_dof: how many values the data determine.
-        gained, lost: columns whose prior variance is larger, smaller.
-        moves: (k, r) by how much the known columns' means move per unit of each change.
-        inner: (r, r) matrix of the change.
-        change: (r,) the change.
-    """
-
-    known: Known
-    log_evidence: float
-    rss: float
-    misfit: float
-    effective_dof: float
+    known: Known  # from which it departs
+    log_evidence: float  # nats
+    rss: float  # penalised residual sum of squares, mm^2
+    misfit: float  # the residual's own sum of squares, mm^2
+    effective_dof: float  # how many values the data determine
+    # gained, lost: columns whose prior variance is larger, smaller
     gained: Indices
     lost: Indices
-    moves: Array
-    inner: Array
-    change: Array
+    moves: Array  # (k, r) by how much the known columns' means move per unit of each change
+    inner: Array  # (r, r) matrix of the change
+    change: Array  # (r,) the change
 
     def means(self, columns: Indices) -> Array | None:
         """(h,) values of some columns; None where one has a smaller variance than it had."""
@@ -143,19 +132,14 @@ def departure(known: Known, columns: Indices, variance: Array) -> Departure | No
 
 @dataclass(frozen=True, eq=False)
 class _Change:
-    """Columns whose prior variances change, those that lose some of it first.
+    """Columns whose prior variances change, those that lose some of it first."""
 
-    Attributes:
-        known: what they change in.
-        gained, lost: columns.
-        by: what the gaining ones gain.
-        was, left: variances of the losing ones before and after.
-    """
-
-    known: Known
+    known: Known  # what they change in
+    # gained, lost: columns
     gained: Indices
     lost: Indices
-    by: Array
+    by: Array  # what the gaining ones gain
+    # was, left: variances of the losing ones before and after
     was: Array
     left: Array
 

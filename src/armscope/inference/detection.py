@@ -21,19 +21,12 @@ from armscope.inference.model_space import Candidate
 
 @dataclass(frozen=True)
 class Detection:
-    """What is known before anything is named.
+    """What is known before anything is named."""
 
-    Attributes:
-        log_odds: that anything is missing, nats.
-        size_mm: of the likeliest single effect at the tool.
-        region: the one that holds nearly all of the odds, if one does.
-        likeliest: candidates in order of their odds, each kind at each location once.
-    """
-
-    log_odds: float
-    size_mm: float
-    region: str | None
-    likeliest: tuple[Candidate, ...]
+    log_odds: float  # that anything is missing, nats
+    size_mm: float  # of the likeliest single effect at the tool
+    region: str | None  # the one that holds nearly all of the odds, if one does
+    likeliest: tuple[Candidate, ...]  # candidates in order of their odds, each kind at each location once
 
     @property
     def detected(self) -> bool:

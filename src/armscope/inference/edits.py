@@ -23,18 +23,12 @@ T = TypeVar("T")
 
 @dataclass(eq=False)
 class Edits:
-    """Steps from one hypothesis to others on one problem.
+    """Steps from one hypothesis to others on one problem."""
 
-    Attributes:
-        problem: the normal equations and priors.
-        groups: the candidates that compete.
-        branches: how many of the most promising additions are evaluated.
-        resized: log posteriors of the hypotheses whose sizes were varied, by effects and background.
-    """
-
-    problem: Problem
-    groups: CandidateGroups
-    branches: int = BUDGET.branches
+    problem: Problem  # the normal equations and priors
+    groups: CandidateGroups  # the candidates that compete
+    branches: int = BUDGET.branches  # how many of the most promising additions are evaluated
+    # log posteriors of the hypotheses whose sizes were varied, by effects and background
     resized: dict[tuple[frozenset[SelectedEffect], BackgroundSizes], float] = field(default_factory=dict)
 
     @property

@@ -26,38 +26,26 @@ from armscope.inference.problem import Problem, SelectedEffect, prior_variances
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """An evaluated hypothesis.
-
-    Attributes:
-        chosen: its effects.
-        background: size of each family's background.
-        noise: mm per axis.
-        log_posterior: log evidence with prior, nats.
-        log_evidence: log evidence alone, nats.
-        columns: columns of the space that take part, ascending.
-        variance: their prior variances, mm^2 at the tool.
-        rss: penalised residual sum of squares, mm^2.
-        equations: the sums that it is of.
-        known_factor, known_mean, known_inverse: its factor, means and the factor's inverse, where evaluating it needed
-            them.
-        near_mean: its means as they follow from those of a hypothesis near by: what it predicts then needs no factor,
-            and what departs from it does not add up rounding.
-    """
+    """An evaluated hypothesis."""
 
     settled: ClassVar[bool] = True
     """The noise is this hypothesis' own."""
-    chosen: tuple[SelectedEffect, ...]
-    background: BackgroundSizes
-    noise: float
-    log_posterior: float
-    log_evidence: float
-    columns: Indices = field(repr=False)
-    variance: Array = field(repr=False)
-    rss: float = field(repr=False)
-    equations: NormalEquations = field(repr=False)
+    chosen: tuple[SelectedEffect, ...]  # its effects
+    background: BackgroundSizes  # size of each family's background
+    noise: float  # mm per axis
+    log_posterior: float  # log evidence with prior, nats
+    log_evidence: float  # log evidence alone, nats
+    columns: Indices = field(repr=False)  # columns of the space that take part, ascending
+    variance: Array = field(repr=False)  # their prior variances, mm^2 at the tool
+    rss: float = field(repr=False)  # penalised residual sum of squares, mm^2
+    equations: NormalEquations = field(repr=False)  # the sums that it is of
+    # known_factor, known_mean, known_inverse: its factor, means and the factor's inverse, where evaluating it needed
+    # them
     known_factor: Array | None = field(default=None, repr=False)
     known_mean: Array | None = field(default=None, repr=False)
     known_inverse: Array | None = field(default=None, repr=False)
+    # its means as they follow from those of a hypothesis near by: what it predicts then needs no factor, and what
+    # departs from it does not add up rounding
     near_mean: Array | None = field(default=None, repr=False)
 
     @functools.cached_property
@@ -169,15 +157,10 @@ def is_beside(columns: int) -> bool:
 
 @dataclass(eq=False, slots=True)
 class _First:
-    """What hardly changes with the noise, where that starts.
+    """What hardly changes with the noise, where that starts."""
 
-    Attributes:
-        effective_dof: how many values the data determine.
-        spread: (h,) standard errors of the values that can't be negative, in units of the noise.
-    """
-
-    effective_dof: float
-    spread: Array
+    effective_dof: float  # how many values the data determine
+    spread: Array  # (h,) standard errors of the values that can't be negative, in units of the noise
 
 
 @dataclass(eq=False)

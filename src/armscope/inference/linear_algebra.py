@@ -106,17 +106,11 @@ def schur_complement(G: Array, free: Indices, columns: Indices) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class ColumnBlocks:
-    """m blocks of c columns beside k columns of a model.
+    """m blocks of c columns beside k columns of a model."""
 
-    Attributes:
-        own: (m, c, c) X'WX within each block.
-        cross: (m, k, c) model columns against the block's.
-        b: (m, c) X'Wy.
-    """
-
-    own: Array
-    cross: Array
-    b: Array
+    own: Array  # (m, c, c) X'WX within each block
+    cross: Array  # (m, k, c) model columns against the block's
+    b: Array  # (m, c) X'Wy
 
     @property
     def diagonal(self) -> Array:

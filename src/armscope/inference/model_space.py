@@ -23,60 +23,40 @@ NONE: frozenset[int] = frozenset()
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One or more columns that enter or leave a hypothesis together. Candidates are told by their numbers in the space.
+    """Columns that enter or leave a hypothesis together. Candidates are told by their numbers in the space."""
 
-    Attributes:
-        kind, location: of effect, and where; kinds are equally likely, and locations of one kind.
-        columns: (c,) its columns.
-        prior_scale: (c,) relative size that each column's coefficient is expected to have.
-        variant: which of several forms of the kind at this location.
-        driver, label: what it follows, and its name, in words.
-        family: what kind of cause it is; the background of that name takes the place of several of its kind.
-        looks_like: the background that does so instead, where it is another family's; "" where it is its own.
-        region: coarser than the location: what is taken out together when others are tried in its place.
-        multiplicity: how many values of a scanned number compete: the prior pays for them.
-        plausible: (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is
-            known. The smaller of the two counts: what rows don't tell stays within what is plausible.
-        usual: (c,) how large each is as a rule, so: much smaller ones are less likely; None where nothing is known.
-        nonnegative: it has one coefficient, which can't be negative.
-        is_curve: a free curve, which contains special cases.
-        competes: it enters a search by itself; otherwise only in another's place.
-        excludes: candidates that can't stand beside it.
-        requires: it does nothing without one of these; None where it stands by itself.
-        special_cases: candidates that the curve contains.
-        side_by_side: how many special cases of the curve may well stand side by side, beside what is ``common``.
-        as_one: special cases that are one cause, however many of them there are.
-        refines: the candidate of which this is a finer form.
-        removed_with: candidates with which, one at a time, it is taken out, too.
-        summed: columns of a background that add up to its own, where that has them in place of its own.
-        at_rest: (c,) of a curve of a load, what each coefficient does, SI units, where that is least; None of others.
-    """
-
+    # kind, location: of effect, and where; kinds are equally likely, and locations of one kind
     kind: str
     location: str
-    columns: Indices
-    prior_scale: Array
-    variant: str = ""
+    columns: Indices  # (c,) its columns
+    prior_scale: Array  # (c,) relative size that each column's coefficient is expected to have
+    variant: str = ""  # which of several forms of the kind at this location
+    # driver, label: what it follows, and its name, in words
     driver: str = ""
     label: str = ""
-    family: str = ""
-    looks_like: str = ""
-    region: str = ""
-    multiplicity: int = 1
+    family: str = ""  # what kind of cause it is; the background of that name takes the place of several of its kind
+    looks_like: str = ""  # the background that does so instead, where it is another family's; "" where it is its own
+    region: str = ""  # coarser than the location: what is taken out together when others are tried in its place
+    multiplicity: int = 1  # how many values of a scanned number compete: the prior pays for them
+    # (c,) how large each coefficient is expected to be in the columns' own units; None where nothing is known. The
+    # smaller of the two counts: what rows don't tell stays within what is plausible
     plausible: Array | None = None
+    # (c,) how large each is as a rule, so: much smaller ones are less likely; None where nothing is known
     usual: Array | None = None
-    nonnegative: bool = False
-    is_curve: bool = False
-    competes: bool = True
-    excludes: frozenset[int] = NONE
-    requires: frozenset[int] | None = None
-    special_cases: frozenset[int] = NONE
-    side_by_side: int = 1
+    nonnegative: bool = False  # it has one coefficient, which can't be negative
+    is_curve: bool = False  # a free curve, which contains special cases
+    competes: bool = True  # it enters a search by itself; otherwise only in another's place
+    excludes: frozenset[int] = NONE  # candidates that can't stand beside it
+    requires: frozenset[int] | None = None  # it does nothing without one of these; None where it stands by itself
+    special_cases: frozenset[int] = NONE  # candidates that the curve contains
+    side_by_side: int = 1  # how many special cases of the curve may well stand side by side, beside what is ``common``
     common: frozenset[int] = NONE
-    as_one: frozenset[int] = NONE
-    refines: int | None = None
-    removed_with: frozenset[int] = NONE
+    as_one: frozenset[int] = NONE  # special cases that are one cause, however many of them there are
+    refines: int | None = None  # the candidate of which this is a finer form
+    removed_with: frozenset[int] = NONE  # candidates with which, one at a time, it is taken out, too
+    # columns of a background that add up to its own, where that has them in place of its own
     summed: frozenset[int] = NONE
+    # (c,) of a curve of a load, what each coefficient does, SI units, where that is least; None of others
     at_rest: Array | None = None
 
     @property
@@ -155,23 +135,14 @@ class BackgroundFamily(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ToleranceFamily:
-    """Values that have a tolerance each, in units of their own; the sizes are shares of it.
+    """Values that have a tolerance each, in units of their own; the sizes are shares of it."""
 
-    Attributes:
-        name: of the family.
-        columns: (c,) its columns.
-        tolerance: (c,) in the columns' own units.
-        shares: of the tolerance, none first.
-        is_priced: whether it pays.
-        takes_one: whether it may take the place of a single name of its family, not only of several.
-    """
-
-    name: str
-    columns: Indices
-    tolerance: Array
-    shares: tuple[float, ...]
-    is_priced: bool = False
-    takes_one: bool = False
+    name: str  # of the family
+    columns: Indices  # (c,) its columns
+    tolerance: Array  # (c,) in the columns' own units
+    shares: tuple[float, ...]  # of the tolerance, none first
+    is_priced: bool = False  # whether it pays
+    takes_one: bool = False  # whether it may take the place of a single name of its family, not only of several
 
     @property
     def sizes(self) -> int:
@@ -194,30 +165,19 @@ class ToleranceFamily:
 
 @dataclass(frozen=True)
 class Exchange:
-    """Candidates that leave all at once, each for its twin where it has one, while one more candidate enters.
+    """Candidates that leave all at once, each for its twin where it has one, while one more candidate enters."""
 
-    Attributes:
-        twins: of each candidate that leaves: what takes its place.
-        entering: the candidates of which one enters; others of them leave.
-    """
-
-    twins: Mapping[int, int | None]
-    entering: tuple[int, ...]
+    twins: Mapping[int, int | None]  # of each candidate that leaves: what takes its place
+    entering: tuple[int, ...]  # the candidates of which one enters; others of them leave
 
 
 @dataclass(frozen=True, eq=False)
 class Companion:
-    """A family that is in wherever something is that it acts through, at its last size, and pays nothing.
+    """A family that is in wherever something is that it acts through, at its last size, and pays nothing."""
 
-    Attributes:
-        family: known up to a tolerance, never none.
-        through: candidates that it acts through.
-        backgrounds: numbers of the families that it acts through.
-    """
-
-    family: BackgroundFamily
-    through: frozenset[int]
-    backgrounds: frozenset[int]
+    family: BackgroundFamily  # known up to a tolerance, never none
+    through: frozenset[int]  # candidates that it acts through
+    backgrounds: frozenset[int]  # numbers of the families that it acts through
 
     def joins(self, candidates: Iterable[int], background: BackgroundSizes) -> bool:
         """Whether it is in a hypothesis of some candidates with some background."""
@@ -226,23 +186,14 @@ class Companion:
 
 @dataclass(frozen=True, eq=False)
 class ModelSpace:
-    """Everything that may take part.
+    """Everything that may take part."""
 
-    Attributes:
-        frames: columns that are always free.
-        families: the backgrounds.
-        companions: what comes with others by itself.
-        candidates: what competes.
-        starts: backgrounds from which a search starts.
-        exchanges: moves of several candidates at once.
-    """
-
-    frames: Indices
-    families: tuple[BackgroundFamily, ...]
-    candidates: tuple[Candidate, ...]
-    starts: tuple[BackgroundSizes, ...] = ()
-    exchanges: tuple[Exchange, ...] = ()
-    companions: tuple[Companion, ...] = ()
+    frames: Indices  # columns that are always free
+    families: tuple[BackgroundFamily, ...]  # the backgrounds
+    candidates: tuple[Candidate, ...]  # what competes
+    starts: tuple[BackgroundSizes, ...] = ()  # backgrounds from which a search starts
+    exchanges: tuple[Exchange, ...] = ()  # moves of several candidates at once
+    companions: tuple[Companion, ...] = ()  # what comes with others by itself
 
     @functools.cached_property
     def kinds(self) -> int:

@@ -33,27 +33,16 @@ class SelectedEffect:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Normal equations with the priors under which hypotheses are evaluated.
+    """Normal equations with the priors under which hypotheses are evaluated."""
 
-    Attributes:
-        space: what the columns are.
-        equations: with columns scaled to 1 mm RMS at the tool.
-        scale: (p,) what they were divided by, mm per SI unit.
-        least_noise: mm; the noise is never taken to be below (stated, or seen in repeats).
-        sizes: (SIZES,) effect sizes that compete, mm at the tool.
-        prior_costs: (candidates,) log prior odds against each candidate, nats.
-        family_costs: (families,) of each background: one kind of error among the others, of some size; nats.
-        mismatch: RMS per axis after the free frames, mm.
-    """
-
-    space: ModelSpace
-    equations: NormalEquations
-    scale: Array
-    least_noise: float
-    sizes: Array
-    prior_costs: Array
-    family_costs: Array
-    mismatch: float
+    space: ModelSpace  # what the columns are
+    equations: NormalEquations  # with columns scaled to 1 mm RMS at the tool
+    scale: Array  # (p,) what they were divided by, mm per SI unit
+    least_noise: float  # mm; the noise is never taken to be below (stated, or seen in repeats)
+    sizes: Array  # (SIZES,) effect sizes that compete, mm at the tool
+    prior_costs: Array  # (candidates,) log prior odds against each candidate, nats
+    family_costs: Array  # (families,) of each background: one kind of error among the others, of some size; nats
+    mismatch: float  # RMS per axis after the free frames, mm
 
     @property
     def n(self) -> float:

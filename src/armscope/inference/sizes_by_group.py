@@ -22,19 +22,12 @@ from armscope.inference.problem import Problem
 
 @dataclass(frozen=True, eq=False)
 class SizeGroups:
-    """Which of a family's values are of a size.
+    """Which of a family's values are of a size."""
 
-    Attributes:
-        family: number of the family.
-        small: (c,) number of each value's own group.
-        large: (c,) number of the larger one.
-        learned: (c,) where not, a value's size stays as it is: it has a name, too.
-    """
-
-    family: int
-    small: Indices
-    large: Indices
-    learned: NDArray[np.bool_]
+    family: int  # number of the family
+    small: Indices  # (c,) number of each value's own group
+    large: Indices  # (c,) number of the larger one
+    learned: NDArray[np.bool_]  # (c,) where not, a value's size stays as it is: it has a name, too
 
 
 def sizes_by_group(

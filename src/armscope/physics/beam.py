@@ -11,19 +11,12 @@ from armscope.core.types import Array
 
 
 class SpreadWeight(NamedTuple):
-    """How a link's own weight lies on its beam.
+    """How a link's own weight lies on its beam."""
 
-    Attributes:
-        even: the share that lies evenly along it.
-        at_end: the share at its end; the others are at its root, and bend nothing.
-        off_beam: (3,) where the even share lies beside the beam, m.
-        off_end: (3,) where the end's share lies from the end, m.
-    """
-
-    even: float
-    at_end: float
-    off_beam: Array
-    off_end: Array
+    even: float  # the share that lies evenly along it
+    at_end: float  # the share at its end; the others are at its root, and bend nothing
+    off_beam: Array  # (3,) where the even share lies beside the beam, m
+    off_end: Array  # (3,) where the end's share lies from the end, m
 
 
 def spread_weight(centre: Array, e: Array, length: float) -> SpreadWeight:

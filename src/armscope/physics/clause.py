@@ -23,17 +23,13 @@ class Number:
 
 @dataclass(frozen=True)
 class Told:
-    """What a verdict tells of one effect.
+    """What a verdict tells of one effect."""
 
-    Attributes:
-        effect, location, driver: in words.
-        numbers: its parameters by name, units of the files; "reaches" for how far a curve goes.
-    """
-
+    # effect, location, driver: in words
     effect: str
     location: str
     driver: str
-    numbers: Mapping[str, Number]
+    numbers: Mapping[str, Number]  # its parameters by name, units of the files; "reaches" for how far a curve goes
 
     def words(self) -> dict[str, object]:
         """What a template may name: {location}, {joint} (without what moves it), {source} (which does), the numbers."""

@@ -57,19 +57,12 @@ def _place_drift(arm: Arm, recordings: Recordings) -> Iterator[Placed]:
 
 @dataclass(frozen=True)
 class Pause:
-    """Time that passed before a row, in which nothing was measured, as rows that would have filled it.
+    """Time that passed before a row, in which nothing was measured, as rows that would have filled it."""
 
-    Attributes:
-        row: the first row afterwards, as `Recordings.number` counts.
-        run: its run.
-        rows: how many rows would have filled it.
-        later: runs on the same base that come after it.
-    """
-
-    row: float
-    run: str
-    rows: float
-    later: tuple[str, ...] = ()
+    row: float  # the first row afterwards, as `Recordings.number` counts
+    run: str  # its run
+    rows: float  # how many rows would have filled it
+    later: tuple[str, ...] = ()  # runs on the same base that come after it
 
 
 def drift_with_pauses(pauses: Sequence[Pause], multiplicity: int) -> Placed:
@@ -201,19 +194,12 @@ def shift(effect: Effect, recordings: Recordings, row: int, multiplicity: int, l
 
 @dataclass(frozen=True)
 class Moment:
-    """From when on something is otherwise.
+    """From when on something is otherwise."""
 
-    Attributes:
-        driver: one from then on, until its run's end and in later runs, zero before.
-        scanned: its name, unit and value, as the verdict tells it.
-        run: in which it lies.
-        words: by what it is told, time or rows, and in which run where there are several.
-    """
-
-    driver: Driver
-    scanned: tuple[str, str, float]
-    run: str
-    words: str
+    driver: Driver  # one from then on, until its run's end and in later runs, zero before
+    scanned: tuple[str, str, float]  # its name, unit and value, as the verdict tells it
+    run: str  # in which it lies
+    words: str  # by what it is told, time or rows, and in which run where there are several
 
 
 def moment(recordings: Recordings, row: int, later: tuple[str, ...]) -> Moment:

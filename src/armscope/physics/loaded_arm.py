@@ -26,21 +26,13 @@ LINKAGE_JOINT = 3
 
 @dataclass(frozen=True, eq=False)
 class Misstated:
-    """By how much loads are other than stated.
+    """By how much loads are other than stated."""
 
-    Attributes:
-        payload_kg: added to the payload at the tool point, in all rows.
-        payload_share: of the stated payload, added to it.
-        payload_offset: (3,) m, the payload's centre off the tool point, in the last frame's axes.
-        masses: (n,) of each link's stated mass, added to it.
-        carried_kg: added to the payload at the tool point in the rows that carry one.
-    """
-
-    payload_kg: float = 0.0
-    payload_share: float = 0.0
-    payload_offset: Array | None = None
-    masses: Array | None = None
-    carried_kg: float = 0.0
+    payload_kg: float = 0.0  # added to the payload at the tool point, in all rows
+    payload_share: float = 0.0  # of the stated payload, added to it
+    payload_offset: Array | None = None  # (3,) m, the payload's centre off the tool point, in the last frame's axes
+    masses: Array | None = None  # (n,) of each link's stated mass, added to it
+    carried_kg: float = 0.0  # added to the payload at the tool point in the rows that carry one
 
 
 AS_STATED = Misstated()

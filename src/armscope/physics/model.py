@@ -47,25 +47,17 @@ class AsStated:
 
 @dataclass(frozen=True, eq=False)
 class FittedModel:
-    """An arm with everything that was found about it.
+    """An arm with everything that was found about it."""
 
-    Attributes:
-        arm: the nominal arm.
-        bases: where the base stands, by run, the last one last.
-        tools: tool offsets as parts.
-        parts: the effects, SI units.
-        background: the small errors of each family that are allowed for everywhere without a name, as parts.
-        tool_turns: (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured.
-        undetermined: tool points that are as stated, since rows do not tell them from the base.
-    """
-
-    arm: Arm
-    bases: Mapping[str, Base]
-    tools: tuple[Part, ...] = ()
-    parts: tuple[Part, ...] = ()
+    arm: Arm  # the nominal arm
+    bases: Mapping[str, Base]  # where the base stands, by run, the last one last
+    tools: tuple[Part, ...] = ()  # tool offsets as parts
+    parts: tuple[Part, ...] = ()  # the effects, SI units
+    # the small errors of each family that are allowed for everywhere without a name, as parts
     background: tuple[Part, ...] = ()
+    # (3, 3) the arm's last frame from the measured tool frame, by tool, where orientations were measured
     tool_turns: Mapping[ToolKey, Array] = field(default_factory=dict)
-    undetermined: tuple[AsStated, ...] = ()
+    undetermined: tuple[AsStated, ...] = ()  # tool points that are as stated, since rows do not tell them from the base
 
     def moves_like(self, other: FittedModel) -> bool:
         """Whether another model surely predicts the same: its frames are these, and its effects but for zeros."""

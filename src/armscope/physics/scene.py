@@ -183,22 +183,15 @@ def _loads(driven: tuple[DrivenTogether, ...]) -> tuple[Driver, ...]:
 
 @dataclass(eq=False)
 class Posture:
-    """An arm's frames at N rows with some effects in place, and the columns of further small effects there.
+    """An arm's frames at N rows with some effects in place, and the columns of further small effects there."""
 
-    Attributes:
-        scene: rows and drivers.
-        frames: where the frames stand, base axes.
-        stretch: relative length error of the instrument.
-        heightened: relative error of its heights, beside that.
-        misread: (N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is.
-        moved, turned: what was computed of `displacement` and `turn`.
-    """
-
-    scene: Scene
-    frames: Chain
-    stretch: float = 0.0
-    heightened: float = 0.0
+    scene: Scene  # rows and drivers
+    frames: Chain  # where the frames stand, base axes
+    stretch: float = 0.0  # relative length error of the instrument
+    heightened: float = 0.0  # relative error of its heights, beside that
+    # (N, 3) by which the tool is taken to be turned, about its own axes, rad; None: it is read as it is
     misread: Array | None = None
+    # moved, turned: what was computed of `displacement` and `turn`
     moved: dict[Direction, Array] = field(default_factory=dict, repr=False)
     turned: dict[Direction, Array] = field(default_factory=dict, repr=False)
 

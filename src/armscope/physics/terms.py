@@ -21,16 +21,13 @@ AXES = ("tx", "ty", "tz", "rx", "ry", "rz")
 
 @dataclass(frozen=True)
 class Direction:
-    """What moves per unit of a driver.
+    """What moves per unit of a driver."""
 
-    Attributes:
-        location: "base", "joint j", "link j", "tool": a frame of the chain (see `armscope.robot.Chain.frame`);
-            "motor j": motor angle j, which turns chain joints through the arm's actuation; "instrument"; "payload".
-        axis: one of `AXES` for a frame, "turn" for a motor, "scale" and "height" for the instrument, "mass" for the
-            payload; any other moves no frame: only readings that know it see it (`armscope.measurement.channel`).
-    """
-
+    # "base", "joint j", "link j", "tool": a frame of the chain (see `armscope.robot.Chain.frame`); "motor j": motor
+    # angle j, which turns chain joints through the arm's actuation; "instrument"; "payload"
     location: str
+    # one of `AXES` for a frame, "turn" for a motor, "scale" and "height" for the instrument, "mass" for the payload;
+    # any other moves no frame: only readings that know it see it (`armscope.measurement.channel`)
     axis: str
 
 
@@ -50,21 +47,14 @@ class Driver:
 
 @dataclass(frozen=True)
 class DriverKind:
-    """How a driver is evaluated, and all that anybody else asks about it.
+    """How a driver is evaluated, and all that anybody else asks about it."""
 
-    Attributes:
-        values: (scene, *arguments of the driver) -> (N,) values, SI units (time in hours).
-        needs: the field of the recordings without which it can't be evaluated ("temperature"; "" for none).
-        follows: what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load,
-            proportional to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not
-            the arm).
-        unit: of its values where an effect is drawn as a curve over it; "" where it is not.
-    """
-
-    values: Callable[..., Array]
-    needs: str = ""
+    values: Callable[..., Array]  # (scene, *arguments of the driver) -> (N,) values, SI units (time in hours)
+    needs: str = ""  # the field of the recordings without which it can't be evaluated ("temperature"; "" for none)
+    # what it depends on: "load" (where the arm stands under gravity), "payload", "weight" (it is a load, proportional
+    # to what hangs there), "torque" (recorded where it was), "run" (it describes a recording, not the arm)
     follows: frozenset[str] = frozenset()
-    unit: str = ""
+    unit: str = ""  # of its values where an effect is drawn as a curve over it; "" where it is not
 
 
 ONE = Driver("one")
@@ -81,23 +71,16 @@ class Product:
 
 @dataclass(frozen=True)
 class Term:
-    """One linear parameter: per unit of it, the sum of the products moves the arm.
+    """One linear parameter: per unit of it, the sum of the products moves the arm."""
 
-    Attributes:
-        name: the parameter's name in the files ("compliance", "a", "offset", ...).
-        unit: its unit in the files.
-        si: SI units per file unit (1e-3 for mm).
-        products: what one SI unit of the parameter does.
-        plausible: SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part
-            of what the term is: two tables may give a load's term different ones.
-        learned: SI, the same of arms of this type, where a fleet has shown it (`armscope.physics.learned_sizes`).
-    """
-
-    name: str
-    unit: str
-    si: float
-    products: tuple[Product, ...]
+    name: str  # the parameter's name in the files ("compliance", "a", "offset", ...)
+    unit: str  # its unit in the files
+    si: float  # SI units per file unit (1e-3 for mm)
+    products: tuple[Product, ...]  # what one SI unit of the parameter does
+    # SI, the size that it has on real arms (one standard deviation; `armscope.physics.constants`). No part of what the
+    # term is: two tables may give a load's term different ones
     plausible: float = field(default=math.inf, compare=False)
+    # SI, the same of arms of this type, where a fleet has shown it (`armscope.physics.learned_sizes`)
     learned: float | None = field(default=None, compare=False)
 
     @functools.cached_property
@@ -144,19 +127,12 @@ def motor(j: int) -> Direction:
 
 @dataclass(frozen=True, eq=False)
 class DrivenTogether:
-    """The products of some terms that move in one direction: there, they come to one weighted sum of drivers.
+    """The products of some terms that move in one direction: there, they come to one weighted sum of drivers."""
 
-    Attributes:
-        direction: of them all.
-        at: (k,) number of each product's term.
-        factors: (k,) of the products.
-        drivers: k of them.
-    """
-
-    direction: Direction
-    at: Indices
-    factors: Array
-    drivers: tuple[Driver, ...]
+    direction: Direction  # of them all
+    at: Indices  # (k,) number of each product's term
+    factors: Array  # (k,) of the products
+    drivers: tuple[Driver, ...]  # k of them
 
 
 def driven_together(terms: Sequence[Term]) -> tuple[DrivenTogether, ...]:

@@ -38,22 +38,14 @@ def few_rows(recordings: Recordings) -> LinearisedTable:
 
 @dataclass(frozen=True, eq=False)
 class ScanContext:
-    """Rows, and the problem that was made of them.
+    """Rows, and the problem that was made of them."""
 
-    Attributes:
-        problem: the normal equations and priors.
-        space: what their columns are.
-        model: where they were taken.
-        recordings: the rows.
-        weights: of the rows.
-        few: rows spread evenly, on which many waves are tried; what the waves are there is kept from scan to scan.
-    """
-
-    problem: Problem
-    space: EffectSpace
-    model: FittedModel
-    recordings: Recordings
-    weights: RowWeights
+    problem: Problem  # the normal equations and priors
+    space: EffectSpace  # what their columns are
+    model: FittedModel  # where they were taken
+    recordings: Recordings  # the rows
+    weights: RowWeights  # of the rows
+    # rows spread evenly, on which many waves are tried; what the waves are there is kept from scan to scan
     few: LinearisedTable | None = None
 
     @functools.cached_property

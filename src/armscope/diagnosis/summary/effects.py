@@ -44,28 +44,18 @@ FIRST_LOOKS = {
 
 @dataclass(frozen=True, eq=False)
 class SummaryBasis:
-    """What the summaries of all effects rest on.
+    """What the summaries of all effects rest on."""
 
-    Attributes:
-        state: the finished selection.
-        search: its search.
-        rivals: what could stand in the place of each candidate.
-        inclusion: inclusion frequency by candidate.
-        scene: recorded rows, spread evenly where there are many.
-        equations: sums over all rows as they were measured.
-        model_error: what no effect explains, and what it does to the covariance.
-        instead: by candidate, what does as well and is to be looked at first: gravity that leans, soft drives.
-        other_doubt: by candidate, what backgrounds of other sizes and other laws of its joint add to the covariance.
-    """
-
-    state: DiagnosisState
-    search: Search
-    rivals: Mapping[int, Sequence[Rival]]
-    inclusion: Mapping[int, float]
-    scene: Scene
-    equations: NormalEquations
-    model_error: ModelError
+    state: DiagnosisState  # the finished selection
+    search: Search  # its search
+    rivals: Mapping[int, Sequence[Rival]]  # what could stand in the place of each candidate
+    inclusion: Mapping[int, float]  # inclusion frequency by candidate
+    scene: Scene  # recorded rows, spread evenly where there are many
+    equations: NormalEquations  # sums over all rows as they were measured
+    model_error: ModelError  # what no effect explains, and what it does to the covariance
+    # by candidate, what backgrounds of other sizes and other laws of its joint add to the covariance
     other_doubt: Mapping[int, Array]
+    # by candidate, what does as well and is to be looked at first: gravity that leans, soft drives
     instead: Mapping[int, Alternative]
 
 

@@ -11,26 +11,17 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 
 class Rival(NamedTuple):
-    """What could stand in an effect's place.
+    """What could stand in an effect's place."""
 
-    Attributes:
-        gap: nats by which it falls short.
-        candidate, hypothesis: what it is, and the hypothesis with it.
-        near: whether its evidence is near enough for it to be listed whatever other rows say.
-        held: columns that are zero in it, though a background has them.
-        excluded: whether rows that took no part exclude it.
-        spared: nats that the effect did not pay, as one cause with others: by these it is no farther.
-        same_motion: whether it moves the tool as the effect does in every pose that the arm can take.
-    """
-
-    gap: float
+    gap: float  # nats by which it falls short
+    # candidate, hypothesis: what it is, and the hypothesis with it
     candidate: Candidate
     hypothesis: Hypothesis
-    near: bool
-    held: tuple[int, ...] = ()
-    excluded: bool | None = None
-    spared: float = 0.0
-    same_motion: bool = False
+    near: bool  # whether its evidence is near enough for it to be listed whatever other rows say
+    held: tuple[int, ...] = ()  # columns that are zero in it, though a background has them
+    excluded: bool | None = None  # whether rows that took no part exclude it
+    spared: float = 0.0  # nats that the effect did not pay, as one cause with others: by these it is no farther
+    same_motion: bool = False  # whether it moves the tool as the effect does in every pose that the arm can take
 
     def in_background_of(self, effect: Candidate) -> bool:
         """Whether an effect and this are two of the many that one background holds."""

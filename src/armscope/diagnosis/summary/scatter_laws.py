@@ -42,16 +42,11 @@ CURE_LOAD = (
 
 @dataclass(frozen=True)
 class ScatterLaw:
-    """What scatter of a joint grows with.
+    """What scatter of a joint grows with."""
 
-    Attributes:
-        told: its size.
-        title: the name of what scatters so.
-        physics, confirm, cure: for people.
-    """
-
-    told: tuple[Parameter, ...]
-    title: str
+    told: tuple[Parameter, ...]  # its size
+    title: str  # the name of what scatters so
+    # physics, confirm, cure: for people
     physics: str
     confirm: str
     cure: str

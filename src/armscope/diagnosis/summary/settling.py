@@ -22,24 +22,16 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 @dataclass(frozen=True, eq=False)
 class OpenQuestion:
-    """Two readings, and poses that may be measured.
+    """Two readings, and poses that may be measured."""
 
-    Attributes:
-        problem: the rows so far.
-        best, effect: the hypothesis with the effect, and the effect.
-        rival: the other reading.
-        columns: (K, 3, p) of all scaled columns at the poses, mm.
-        base: (K, 3, 6) of a base that is set up anew, mm per SI unit.
-        base_variance: (6,) of that base, SI units.
-    """
-
-    problem: Problem
+    problem: Problem  # the rows so far
+    # best, effect: the hypothesis with the effect, and the effect
     best: Hypothesis
     effect: Candidate
-    rival: Rival
-    columns: Array
-    base: Array
-    base_variance: Array
+    rival: Rival  # the other reading
+    columns: Array  # (K, 3, p) of all scaled columns at the poses, mm
+    base: Array  # (K, 3, 6) of a base that is set up anew, mm per SI unit
+    base_variance: Array  # (6,) of that base, SI units
 
     def times(self, rng: np.random.Generator) -> float:
         """How often each pose is to be measured until the right reading is known; infinite where never.

@@ -29,19 +29,12 @@ from armscope.verdict.effects import FoundEffect
 
 @dataclass(frozen=True, eq=False)
 class StatedLoad:
-    """A load that is the same in all rows.
+    """A load that is the same in all rows."""
 
-    Attributes:
-        kg: its mass; 0 where none is stated.
-        off_kg: by which it may plausibly be other than stated.
-        words: who states it.
-        centre: (3,) m, off the tool point; None for there.
-    """
-
-    kg: float
-    off_kg: float
-    words: str
-    centre: Array | None = None
+    kg: float  # its mass; 0 where none is stated
+    off_kg: float  # by which it may plausibly be other than stated
+    words: str  # who states it
+    centre: Array | None = None  # (3,) m, off the tool point; None for there
 
 
 def beside_the_stated_load(

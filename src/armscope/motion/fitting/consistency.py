@@ -21,19 +21,12 @@ PARTS = "fifths of the motion"
 
 @dataclass(frozen=True, eq=False)
 class PathAgreement:
-    """What the blocks say of one cause.
+    """What the blocks say of one cause."""
 
-    Attributes:
-        size: of each block that tells it, as a share of the size from all.
-        stderr: of these.
-        paths: whether blocks are runs; else they are parts of one run.
-        runs: the only runs in which the cause is there; empty for all.
-    """
-
-    size: Array
-    stderr: Array
-    paths: bool = True
-    runs: tuple[str, ...] = ()
+    size: Array  # of each block that tells it, as a share of the size from all
+    stderr: Array  # of these
+    paths: bool = True  # whether blocks are runs; else they are parts of one run
+    runs: tuple[str, ...] = ()  # the only runs in which the cause is there; empty for all
 
     @property
     def tested(self) -> bool:

@@ -18,20 +18,15 @@ LOAD = len(OF_A_LOAD)
 
 @dataclass(frozen=True, eq=False)
 class JointRows:
-    """Of one joint in one run of K rows.
+    """Of one joint in one run of K rows."""
 
-    Attributes:
-        at: (p,) which of the columns in use it has.
-        X, L: (K, p) these columns, (K, 4) those of a load, N m per unit.
-        y, row: (K,) torque beyond the nominal, and how much each row counts.
-        A, b: (p, p) and (p,) sums of the columns with each other and with the torque.
-    """
-
-    at: Indices
-    X: Array
-    L: Array
+    at: Indices  # (p,) which of the columns in use it has
+    X: Array  # (K, p) these columns
+    L: Array  # (K, 4) those of a load, N m per unit
+    # y, row: (K,) torque beyond the nominal, and how much each row counts
     y: Array
     row: Array
+    # A, b: (p, p) and (p,) sums of the columns with each other and with the torque
     A: Array
     b: Array
 

@@ -19,28 +19,20 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """The model as the last round left it: further columns are functions of it.
+    """The model as the last round left it: further columns are functions of it."""
 
-    Attributes:
-        inertial: (10 n,) inertial parameters.
-        background: (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated.
-        delay: (m,) s by which torques are late.
-        of_runs: (10 n,) inertial parameters that are added in some runs: a load that only these carry.
-        of_bodies: whether masses were held near the stated ones; else they are whatever the motion tells of them.
-        laws: causes of one joint that follow the motion alone, with their numbers: a delay is theirs, too.
-        loads: what is carried for some of a run only, with its numbers.
-        gain: (m,) by which recorded torque exceeds the true one; None: by nothing.
-        turning: (m,) s by which friction changes sides later than the speed, as far as columns are formed so; None: 0.
-    """
-
-    inertial: Array
-    background: Array
-    delay: Array
+    inertial: Array  # (10 n,) inertial parameters
+    background: Array  # (m, 4) offset, dry and viscous friction, rotor inertia, with what is stated
+    delay: Array  # (m,) s by which torques are late
+    # (10 n,) inertial parameters that are added in some runs: a load that only these carry
     of_runs: Mapping[str, Array] = field(default_factory=dict)
+    # whether masses were held near the stated ones; else they are whatever the motion tells of them
     of_bodies: bool = True
+    # causes of one joint that follow the motion alone, with their numbers: a delay is theirs, too
     laws: tuple[tuple[PlacedCause, Array], ...] = ()
-    loads: tuple[tuple[PlacedCause, Array], ...] = ()
-    gain: Array | None = None
+    loads: tuple[tuple[PlacedCause, Array], ...] = ()  # what is carried for some of a run only, with its numbers
+    gain: Array | None = None  # (m,) by which recorded torque exceeds the true one; None: by nothing
+    # (m,) s by which friction changes sides later than the speed, as far as columns are formed so; None: 0
     turning: Array | None = None
 
     def carried(self, signals: Signals, bodies: Bodies) -> Array | float:

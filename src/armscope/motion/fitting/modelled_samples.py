@@ -18,34 +18,21 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class StatedSamples:
-    """Samples with what the model asks of them before anything is fitted.
+    """Samples with what the model asks of them before anything is fitted."""
 
-    Attributes:
-        signals: N samples.
-        torque: (N, m) that the stated masses ask for.
-        carried: (N, m) that the stated payload asks for.
-    """
-
-    signals: Signals
-    torque: Array
-    carried: Array | float
+    signals: Signals  # N samples
+    torque: Array  # (N, m) that the stated masses ask for
+    carried: Array | float  # (N, m) that the stated payload asks for
 
 
 @dataclass(frozen=True, eq=False)
 class ModelledSamples:
-    """What a model says of samples.
+    """What a model says of samples."""
 
-    Attributes:
-        moment: what columns are functions of.
-        own: (N, m, 7) what every joint has, per unit of each: `layout.OWN_NAMES`.
-        links: (N, m) torque of links with what they carry all along a run.
-        rounded: (N, m) what drives round off, per unit of it.
-    """
-
-    moment: Moment
-    own: Array
-    links: Array
-    rounded: Array
+    moment: Moment  # what columns are functions of
+    own: Array  # (N, m, 7) what every joint has, per unit of each: `layout.OWN_NAMES`
+    links: Array  # (N, m) torque of links with what they carry all along a run
+    rounded: Array  # (N, m) what drives round off, per unit of it
 
 
 def stated_samples(arm: MovingArm, signals: Signals) -> tuple[StatedSamples, Array]:

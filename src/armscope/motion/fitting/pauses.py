@@ -28,13 +28,10 @@ Spell = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class Pauses:
-    """Of one joint.
+    """Of one joint."""
 
-    Attributes:
-        held: of pauses whose rows overlap: (k,) numbers of these rows and (k, c) orthonormal columns, which span all
-            that forces in these pauses can make of them.
-    """
-
+    # of pauses whose rows overlap: (k,) numbers of these rows and (k, c) orthonormal columns, which span all that
+    # forces in these pauses can make of them
     held: tuple[tuple[Indices, Array], ...] = ()
 
     def without(self, values: NDArray[AnyFloat]) -> NDArray[AnyFloat]:

@@ -21,38 +21,32 @@ from armscope.motion.samples.timing import Stretch
 
 @dataclass(frozen=True, eq=False)
 class MotionRows:
-    """K rows of m joints.
+    """K rows of m joints."""
 
-    Attributes:
-        layout: of the columns.
-        time, run, stretch: (K,) of each row.
-        q, dq: (K, m) positions, velocities.
-        torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for.
-        still: (K, m) that tell nothing: a joint stands, and its friction may be anything; or its torque was cut off.
-        columns, at: of each joint (K, p_j), and (p_j,) where these columns stand.
-        gain: (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that
-            is true torque is recorded. A gain's own column is the stated torque, so that
-            (1 + gain) (stated + added) = stated + gain * stated + (1 + gain) added is linear but for that factor.
-        turning: (m,) s later than the speed, at which friction changes sides in columns; what is told is beyond that.
-        samples: that they were formed of.
-        pauses: of each joint, in which it is held by nobody knows what.
-    """
-
-    layout: TorqueLayout
+    layout: TorqueLayout  # of the columns
+    # time, run, stretch: (K,) of each row
     time: Array
     run: NDArray[np.str_]
     stretch: Indices
+    # q, dq: (K, m) positions, velocities
     q: Array
     dq: Array
+    # torque, nominal: (K, m) measured, as motors' torque, low-passed; and what the stated masses ask for
     torque: Array
     nominal: Array
+    # (K, m) that tell nothing: a joint stands, and its friction may be anything; or its torque was cut off
     still: NDArray[np.bool_]
+    # columns, at: of each joint (K, p_j), and (p_j,) where these columns stand
     columns: tuple[NDArray[np.float32], ...]
     at: tuple[Indices, ...]
+    # (m,) by which recorded torque exceeds the true one, as far as known: times as much of every column that is true
+    # torque is recorded. A gain's own column is the stated torque, so that (1 + gain) (stated + added) = stated + gain
+    # * stated + (1 + gain) added is linear but for that factor
     gain: Array
+    # (m,) s later than the speed, at which friction changes sides in columns; what is told is beyond that
     turning: Array
-    samples: tuple[StatedSamples, ...]
-    pauses: tuple[Pauses, ...]
+    samples: tuple[StatedSamples, ...]  # that they were formed of
+    pauses: tuple[Pauses, ...]  # of each joint, in which it is held by nobody knows what
 
     def __len__(self) -> int:
         return len(self.time)

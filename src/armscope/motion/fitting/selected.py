@@ -20,18 +20,14 @@ from armscope.motion.library.layout import DRY, OWN
 
 @dataclass(frozen=True, eq=False)
 class SelectedCauses:
-    """A finished selection.
+    """A finished selection."""
 
-    Attributes:
-        rows, weights: the rows, and how much they count.
-        block: (K,) number of each row's block; by_joint: their sums by joint, whatever its noise.
-        space, problem, best: what competed, on which sums, and what won.
-    """
-
+    # rows, weights: the rows, and how much they count
     rows: MotionRows
     weights: TorqueWeights
-    block: Indices
+    block: Indices  # (K,) number of each row's block; by_joint: their sums by joint, whatever its noise
     by_joint: list[list[JointSums]]
+    # space, problem, best: what competed, on which sums, and what won
     space: ModelSpace
     problem: Problem
     best: Hypothesis

@@ -19,33 +19,22 @@ from armscope.motion.fitting.rows import MotionRows
 
 @dataclass(frozen=True, eq=False)
 class JointSums:
-    """Sums over the rows of one joint's torque in one run and block, each row by its weight; N m.
+    """Sums over the rows of one joint's torque in one run and block, each row by its weight; N m."""
 
-    Attributes:
-        joint: from 0.
-        run: its name.
-        at: (p_j,) which columns.
-        sums: of these columns.
-    """
-
-    joint: int
-    run: str
-    at: Indices
-    sums: NormalEquations
+    joint: int  # from 0
+    run: str  # its name
+    at: Indices  # (p_j,) which columns
+    sums: NormalEquations  # of these columns
 
 
 @dataclass(frozen=True, eq=False)
 class Earlier:
-    """Sums of the same rows in the same blocks, when some counted otherwise or some columns were other functions.
+    """Sums of the same rows in the same blocks, when some counted otherwise or some columns were other functions."""
 
-    Attributes:
-        rows, row: the rows and (K, m) how much each counted.
-        blocks: the sums.
-    """
-
+    # rows, row: the rows and (K, m) how much each counted
     rows: MotionRows
     row: Array
-    blocks: Sequence[Sequence[JointSums]]
+    blocks: Sequence[Sequence[JointSums]]  # the sums
 
 
 def sums_by_joint(

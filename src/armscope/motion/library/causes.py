@@ -27,37 +27,32 @@ from armscope.verdict.effects import UNKNOWN
 
 @dataclass(frozen=True)
 class Cause:
-    """A kind of cause.
+    """A kind of cause."""
 
-    Attributes:
-        name, family: as the verdict has them.
-        physics, confirm, cure: one sentence each.
-        nonnegative: its one parameter can't be negative.
-        in_bodies: masses, dry and viscous friction and armature of a simulator's joint can say it.
-        labels: its parameters' names on a card, where their own don't say it.
-        clause: what a headline says of it; its title and size where not given.
-        remedy: its cure with the numbers found; the cure as it stands where not given.
-        cures: of its forms (`PlacedCause.variant`) that are put right in another way.
-        open_clause, open_cure: both where its number is not determined.
-        each_form: whether its forms may stand side by side, each with a name of its own; not while the arm runs, where
-            each run has one moment, and two slopes foretell the next one worse than one.
-        confirm_common: how it is confirmed where all joints have it in common; as elsewhere where not given.
-    """
-
+    # name, family: as the verdict has them
     name: str
     family: str
+    # physics, confirm, cure: one sentence each
     physics: str
     confirm: str
     cure: str
-    nonnegative: bool = False
-    in_bodies: bool = False
+    nonnegative: bool = False  # its one parameter can't be negative
+    in_bodies: bool = False  # masses, dry and viscous friction and armature of a simulator's joint can say it
+    # its parameters' names on a card, where their own don't say it
     labels: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    # what a headline says of it; its title and size where not given
     clause: Clause | None = field(default=None, repr=False, compare=False)
+    # its cure with the numbers found; the cure as it stands where not given
     remedy: Remedy | None = field(default=None, repr=False, compare=False)
+    # of its forms (`PlacedCause.variant`) that are put right in another way
     cures: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    # open_clause, open_cure: both where its number is not determined
     open_clause: Clause | None = field(default=None, repr=False, compare=False)
     open_cure: str = field(default="", repr=False, compare=False)
+    # how it is confirmed where all joints have it in common; as elsewhere where not given
     confirm_common: str = field(default="", repr=False, compare=False)
+    # whether its forms may stand side by side, each with a name of its own; not while the arm runs, where each run has
+    # one moment, and two slopes foretell the next one worse than one
     each_form: bool = field(default=False, repr=False, compare=False)
 
     @property
@@ -68,31 +63,21 @@ class Cause:
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """What columns are functions of: samples, and what the model says of them so far.
+    """What columns are functions of: samples, and what the model says of them so far."""
 
-    Attributes:
-        signals: the samples.
-        rigid: (N, m) torque that the masses ask for.
-        predicted: (N, m) torque with friction and whatever else is in the model.
-        rate: samples per second.
-        bodies: what asks for torque on other motions than the samples'; None where no law has any.
-        dry: the dry friction that is in ``predicted``; None where that holds none.
-        stated: (N, m) torque that the stated masses ask for; None where that is ``rigid``. Of a fitted torque a gain,
-            or a curve that holds one, would be the whole model once more, at the price of one number, and put an end
-            to friction and masses.
-        bare: (N, m) the same with friction and rotors as they are so far; None where that is ``predicted``.
-        read: (N, m) torque that a gain is of; None where that is ``predicted``.
-    """
-
-    signals: Signals
-    rigid: Array
-    predicted: Array
-    rate: float
-    bodies: Bodies | None = None
-    dry: DryFriction | None = None
+    signals: Signals  # the samples
+    rigid: Array  # (N, m) torque that the masses ask for
+    predicted: Array  # (N, m) torque with friction and whatever else is in the model
+    rate: float  # samples per second
+    bodies: Bodies | None = None  # what asks for torque on other motions than the samples'; None where no law has any
+    dry: DryFriction | None = None  # the dry friction that is in ``predicted``; None where that holds none
+    # (N, m) torque that the stated masses ask for; None where that is ``rigid``. Of a fitted torque a gain, or a curve
+    # that holds one, would be the whole model once more, at the price of one number, and put an end to friction and
+    # masses
     stated: Array | None = None
+    # (N, m) the same with friction and rotors as they are so far; None where that is ``predicted``
     bare: Array | None = None
-    read: Array | None = None
+    read: Array | None = None  # (N, m) torque that a gain is of; None where that is ``predicted``
 
     @functools.cached_property
     def without_dry(self) -> Array:
@@ -126,40 +111,24 @@ Columns = Callable[[Moment], Array]
 
 @dataclass(frozen=True, eq=False)
 class PlacedCause:
-    """A cause at a place.
+    """A cause at a place."""
 
-    Attributes:
-        cause: of which kind.
-        location: "joint 2", "link 3", "payload", ...
-        driver: what it follows.
-        parameters: (name, unit) of each column.
-        joints: whose torque it is part of, from 0.
-        columns: (N, joints, c) at samples; None where it is made of other columns.
-        of_background: (joint, number in `BACKGROUND`): it is one of every joint's own columns.
-        inertial: (10 n, c) inertial parameters per unit of its own; None where it has columns.
-        runs: the only runs in which it is there; empty for all.
-        variant: which of several forms of the kind at this place.
-        multiplicity: how many values of a scanned number compete.
-        is_curve: a free curve.
-        scanned: (name, unit, value) of numbers that were scanned.
-        expected: (c,) how large its parameters are expected to be beside each other; empty: alike.
-        usual: (c,) how large they are as a rule where it is there at all; empty: anything is usual.
-    """
-
-    cause: Cause
-    location: str
-    driver: str
-    parameters: tuple[tuple[str, str], ...]
-    joints: tuple[int, ...]
-    columns: Columns | None = None
-    inertial: Array | None = None
+    cause: Cause  # of which kind
+    location: str  # "joint 2", "link 3", "payload", ...
+    driver: str  # what it follows
+    parameters: tuple[tuple[str, str], ...]  # (name, unit) of each column
+    joints: tuple[int, ...]  # whose torque it is part of, from 0
+    columns: Columns | None = None  # (N, joints, c) at samples; None where it is made of other columns
+    inertial: Array | None = None  # (10 n, c) inertial parameters per unit of its own; None where it has columns
+    # (joint, number in `BACKGROUND`): it is one of every joint's own columns
     of_background: tuple[int, int] | None = None
-    runs: tuple[str, ...] = ()
-    variant: str = ""
-    multiplicity: int = 1
-    is_curve: bool = False
-    scanned: tuple[tuple[str, str, float], ...] = ()
-    expected: tuple[float, ...] = ()
+    runs: tuple[str, ...] = ()  # the only runs in which it is there; empty for all
+    variant: str = ""  # which of several forms of the kind at this place
+    multiplicity: int = 1  # how many values of a scanned number compete
+    is_curve: bool = False  # a free curve
+    scanned: tuple[tuple[str, str, float], ...] = ()  # (name, unit, value) of numbers that were scanned
+    expected: tuple[float, ...] = ()  # (c,) how large its parameters are expected to be beside each other; empty: alike
+    # (c,) how large they are as a rule where it is there at all; empty: anything is usual
     usual: tuple[float, ...] = ()
 
     @property
@@ -185,59 +154,39 @@ class PlacedCause:
 
 @dataclass(frozen=True)
 class Stand:
-    """What an arm stands on that rings.
+    """What an arm stands on that rings."""
 
-    Attributes:
-        hz, damping: of its ringing; damping as a share of the critical one.
-        held: N m about x and y of the base in the mean, by which it was levelled.
-        tried: how many frequencies were.
-    """
-
+    # hz, damping: of its ringing; damping as a share of the critical one
     hz: float
     damping: float
-    held: tuple[float, float]
-    tried: int
+    held: tuple[float, float]  # N m about x and y of the base in the mean, by which it was levelled
+    tried: int  # how many frequencies were
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What the table lets a library know: ranges of what causes follow.
+    """What the table lets a library know: ranges of what causes follow."""
 
-    Attributes:
-        arm: the arm.
-        q, dq: (m, 2) least and largest position and velocity.
-        speeds: (m, K) speeds without their sign, evenly spaced among all.
-        load: (m,) largest torque that the stated masses ask for, N m.
-        effort: (m,) RMS of the recorded torque.
-        time: (2,) s, first and last, of runs since each began.
-        temperature: (m, 2) deg C, or None.
-        running_min: min that all runs take together.
-        runs: names in order.
-        moving: (m,) whether each joint moves.
-        motion_hz: above which nothing of the motion is seen for noise.
-        regressor: (K, 10 n) torque per inertial parameter in some of the samples, joints below each other.
-        waves: by joint (from 0), the waves per turn that stand out of what is left, and how many were tried.
-        stand: that rings; None where none does.
-        both_sides: (m,) whether each joint's link was recorded beside its motor; None where none was.
-        width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
-    """
-
-    arm: MovingArm
+    arm: MovingArm  # the arm
+    # q, dq: (m, 2) least and largest position and velocity
     q: Array
     dq: Array
-    speeds: Array
-    load: Array
-    effort: Array
-    time: Array
-    temperature: Array | None
-    running_min: float
-    runs: tuple[str, ...]
-    moving: NDArray[np.bool_]
-    regressor: Array
-    motion_hz: float = CUTOFF.widest_hz
+    speeds: Array  # (m, K) speeds without their sign, evenly spaced among all
+    load: Array  # (m,) largest torque that the stated masses ask for, N m
+    effort: Array  # (m,) RMS of the recorded torque
+    time: Array  # (2,) s, first and last, of runs since each began
+    temperature: Array | None  # (m, 2) deg C, or None
+    running_min: float  # min that all runs take together
+    runs: tuple[str, ...]  # names in order
+    moving: NDArray[np.bool_]  # (m,) whether each joint moves
+    regressor: Array  # (K, 10 n) torque per inertial parameter in some of the samples, joints below each other
+    motion_hz: float = CUTOFF.widest_hz  # above which nothing of the motion is seen for noise
+    # by joint (from 0), the waves per turn that stand out of what is left, and how many were tried
     waves: Mapping[int, tuple[tuple[int, ...], int]] = field(default_factory=dict)
-    stand: Stand | None = None
+    stand: Stand | None = None  # that rings; None where none does
+    # (m,) whether each joint's link was recorded beside its motor; None where none was
     both_sides: NDArray[np.bool_] | None = None
+    # (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`
     width_of_sides: Array | None = None
 
     def unit(self, joint: int) -> str:

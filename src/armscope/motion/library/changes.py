@@ -22,23 +22,14 @@ UNSURE = "unsure"
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """A load that comes and goes in a run.
+    """A load that comes and goes in a run."""
 
-    Attributes:
-        run: its name.
-        at_first: whether the load is there from the start.
-        moments: s of the run's own time, ascending, at which it comes or goes.
-        unsure: s, by which the least known of these may be off.
-        load: (4,) `OF_A_LOAD`, kg and kg m.
-        tried: moments that competed for each.
-    """
-
-    run: str
-    at_first: bool
-    moments: tuple[float, ...]
-    unsure: float
-    load: Array
-    tried: int
+    run: str  # its name
+    at_first: bool  # whether the load is there from the start
+    moments: tuple[float, ...]  # s of the run's own time, ascending, at which it comes or goes
+    unsure: float  # s, by which the least known of these may be off
+    load: Array  # (4,) `OF_A_LOAD`, kg and kg m
+    tried: int  # moments that competed for each
 
     @property
     def otherwise(self) -> Change:

@@ -40,19 +40,12 @@ LATE_BY_ORDER = {1: 1.0, 2: 2.0**0.5}
 
 @dataclass(frozen=True, eq=False)
 class ChangeOfSides:
-    """How dry friction of m joints changes sides.
+    """How dry friction of m joints changes sides."""
 
-    Attributes:
-        width: (m,) rad/s (m/s) within which it does.
-        late: (m,) s by which it does later than the speed.
-        order: (m,) of a low-pass that makes it so; 0: it is shifted as it is.
-        blunt: (m,) rad/s (m/s) up to which width the shape of the change is free.
-    """
-
-    width: Array
-    late: Array
-    order: Indices
-    blunt: Array
+    width: Array  # (m,) rad/s (m/s) within which it does
+    late: Array  # (m,) s by which it does later than the speed
+    order: Indices  # (m,) of a low-pass that makes it so; 0: it is shifted as it is
+    blunt: Array  # (m,) rad/s (m/s) up to which width the shape of the change is free
 
     @classmethod
     def of(

@@ -28,17 +28,11 @@ from armscope.motion.samples.low_pass import without_lag
 
 @dataclass(frozen=True)
 class Law:
-    """A function of the samples.
+    """A function of the samples."""
 
-    Attributes:
-        kind: one of `LAWS`.
-        joints: whose torque it is, from 0.
-        numbers: what the function takes after the samples and the joints.
-    """
-
-    kind: str
-    joints: tuple[int, ...]
-    numbers: tuple[float, ...] = ()
+    kind: str  # one of `LAWS`
+    joints: tuple[int, ...]  # whose torque it is, from 0
+    numbers: tuple[float, ...] = ()  # what the function takes after the samples and the joints
 
     def __call__(self, moment: Moment) -> Array:
         """(N, joints, c) columns at the samples."""

@@ -32,22 +32,16 @@ DRY, VISCOUS, BLUNTER, ROUNDER, LATER = map(OWN_NAMES.index, ("coulomb", "viscou
 
 @dataclass(frozen=True, eq=False)
 class TorqueLayout:
-    """Which column stands where: background of each joint, inertial parameters, gains, causes.
+    """Which column stands where: background of each joint, inertial parameters, gains, causes."""
 
-    Attributes:
-        arm: the arm.
-        placed: the causes that compete.
-        with_gains: whether torques come from currents, whose gains are known to some percent; else they are read true,
-            or all of them a little wrong.
-        width_of_sides: (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`.
-        order_of_sides: (m,) of the low-pass by which it does so late; None or 0: it is shifted.
-    """
-
-    arm: MovingArm
-    placed: tuple[PlacedCause, ...]
+    arm: MovingArm  # the arm
+    placed: tuple[PlacedCause, ...]  # the causes that compete
+    # whether torques come from currents, whose gains are known to some percent; else they are read true, or all of them
+    # a little wrong
     with_gains: bool
+    # (m,) rad/s (m/s) within which each joint's friction changes sides; None: as in `sides`
     width_of_sides: Array | None = None
-    order_of_sides: Indices | None = None
+    order_of_sides: Indices | None = None  # (m,) of the low-pass by which it does so late; None or 0: it is shifted
 
     @property
     def own(self) -> Indices:

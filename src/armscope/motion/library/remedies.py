@@ -22,27 +22,16 @@ _SAID = {"mx": "mass × x", "my": "mass × y", "mz": "mass × z"}
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """What a cure is made of: the cause's words and its numbers.
+    """What a cure is made of: the cause's words and its numbers."""
 
-    Attributes:
-        cure: the cause's own sentence.
-        parameters: as fitted.
-        arm: as stated.
-        of_law: numbers of the law that it follows; none where it follows none.
-        place: where it is, as in "link 2" or "joint 3 from joint 2".
-        run: the only one that has it; empty where all have.
-        driver: what it follows.
-        currents: whether currents were recorded, and not torques.
-    """
-
-    cure: str
-    parameters: tuple[Parameter, ...]
-    arm: MovingArm
-    of_law: tuple[float, ...] = ()
-    place: str = ""
-    run: str = ""
-    driver: str = ""
-    currents: bool = False
+    cure: str  # the cause's own sentence
+    parameters: tuple[Parameter, ...]  # as fitted
+    arm: MovingArm  # as stated
+    of_law: tuple[float, ...] = ()  # numbers of the law that it follows; none where it follows none
+    place: str = ""  # where it is, as in "link 2" or "joint 3 from joint 2"
+    run: str = ""  # the only one that has it; empty where all have
+    driver: str = ""  # what it follows
+    currents: bool = False  # whether currents were recorded, and not torques
 
     @property
     def first(self) -> Parameter:

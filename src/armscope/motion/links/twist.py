@@ -39,24 +39,16 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class TwistRows:
-    """K rows of one joint.
+    """K rows of one joint."""
 
-    Attributes:
-        joint: from 0.
-        placed: its zero, and what competes.
-        run, stretch: (K,) of each row.
-        measured: (K,) link less motor, rad (m), low-passed.
-        torque: (K,) through the joint, N m (N), low-passed alike.
-        columns: (K, p) of all that is placed, rad (m) per unit, low-passed alike.
-    """
-
-    joint: int
-    placed: tuple[PlacedCause, ...]
+    joint: int  # from 0
+    placed: tuple[PlacedCause, ...]  # its zero, and what competes
+    # run, stretch: (K,) of each row
     run: NDArray[np.str_]
     stretch: Indices
-    measured: Array
-    torque: Array
-    columns: Array
+    measured: Array  # (K,) link less motor, rad (m), low-passed
+    torque: Array  # (K,) through the joint, N m (N), low-passed alike
+    columns: Array  # (K, p) of all that is placed, rad (m) per unit, low-passed alike
 
     def __len__(self) -> int:
         return len(self.measured)
@@ -70,16 +62,11 @@ class TwistRows:
 
 @dataclass(frozen=True, eq=False)
 class SelectedTwist:
-    """What the evidence asks for at one joint.
+    """What the evidence asks for at one joint."""
 
-    Attributes:
-        rows: its rows.
-        blocks: sums over runs, or parts of one.
-        space, problem, best: what competed, on which sums, and what won; candidate n is cause n + 1 of the rows.
-    """
-
-    rows: TwistRows
-    blocks: list[NormalEquations]
+    rows: TwistRows  # its rows
+    blocks: list[NormalEquations]  # sums over runs, or parts of one
+    # space, problem, best: what competed, on which sums, and what won; candidate n is cause n + 1 of the rows
     space: ModelSpace
     problem: Problem
     best: Hypothesis

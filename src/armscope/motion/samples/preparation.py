@@ -26,21 +26,14 @@ from armscope.motion.samples.timing import Stretch
 
 @dataclass(frozen=True)
 class Preparation:
-    """How samples become rows.
+    """How samples become rows."""
 
-    Attributes:
-        rate: samples per second; cutoff: of torque and model, Hz.
-        position_cutoff: of the positions before they are derived, Hz, of a run that is in none of ``of_runs``.
-        every: every how many samples a row is kept; cutoff_source: why this cut-off.
-        of_runs: (run, Hz) of runs whose positions show less of a motion.
-    """
-
-    rate: float
+    rate: float  # samples per second; cutoff: of torque and model, Hz
     cutoff: float
-    position_cutoff: float
-    every: int
+    position_cutoff: float  # of the positions before they are derived, Hz, of a run that is in none of ``of_runs``
+    every: int  # every how many samples a row is kept; cutoff_source: why this cut-off
     cutoff_source: str
-    of_runs: tuple[tuple[str, float], ...] = ()
+    of_runs: tuple[tuple[str, float], ...] = ()  # (run, Hz) of runs whose positions show less of a motion
 
     @property
     def stride(self) -> int:
@@ -145,40 +138,28 @@ def thinned(how: Preparation, samples: int) -> Preparation:
 
 @dataclass(frozen=True, eq=False)
 class Signals:
-    """Samples of one stretch, or a part of it; every column of the model is a function of them.
+    """Samples of one stretch, or a part of it; every column of the model is a function of them."""
 
-    Attributes:
-        run: its name.
-        stretch: number of the stretch.
-        time: (N,) s.
-        q, dq, ddq: (N, m) filtered positions and their derivatives.
-        effort: (K, m) of the rows, low-passed, N m (N) or A; none where every sample is kept.
-        payload: (N,) kg; temperature: (N, m) deg C; each or None.
-        kept: (K,) which samples become rows; stride: of the samples, to the recorded ones.
-        shift: (N, m) links less motors, less the middle of it in the stretch, with two derivatives; 0 of joints whose
-            link has no encoder, or one that tells noise. None where no link has one.
-        twist: (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None.
-        cut: (K, m) rows that hold some effort that was cut off; or None.
-        running: (N,) s that the arm has run, or None.
-        began: s, when the run began.
-    """
-
-    run: str
-    stretch: int
-    time: Array
+    run: str  # its name
+    stretch: int  # number of the stretch
+    time: Array  # (N,) s
+    # q, dq, ddq: (N, m) filtered positions and their derivatives
     q: Array
     dq: Array
     ddq: Array
-    effort: Array
-    payload: Array | None
+    effort: Array  # (K, m) of the rows, low-passed, N m (N) or A; none where every sample is kept
+    payload: Array | None  # (N,) kg; temperature: (N, m) deg C; each or None
     temperature: Array | None
-    kept: Indices
+    kept: Indices  # (K,) which samples become rows; stride: of the samples, to the recorded ones
     stride: int = 1
+    # (N, m) links less motors, less the middle of it in the stretch, with two derivatives; 0 of joints whose link has
+    # no encoder, or one that tells noise. None where no link has one
     shift: tuple[Array, Array, Array] | None = None
+    # (K, m) link less motor of the rows, low-passed, NaN of joints without such an encoder; or None
     twist: Array | None = None
-    cut: NDArray[np.bool_] | None = None
-    running: Array | None = None
-    began: float = 0.0
+    cut: NDArray[np.bool_] | None = None  # (K, m) rows that hold some effort that was cut off; or None
+    running: Array | None = None  # (N,) s that the arm has run, or None
+    began: float = 0.0  # s, when the run began
 
     def some_time_ago(self, joint: int, delay: float) -> tuple[Array, Array]:
         """(N,) velocity and acceleration of a joint's motor some time ago, s: a cubic by both between samples."""

@@ -24,17 +24,11 @@ from armscope.robot.dynamics import MovingArm
 
 @dataclass(frozen=True, eq=False)
 class Rails:
-    """Where channels end.
+    """Where channels end."""
 
-    Attributes:
-        at: (N, m) whether a sample lies on a rail.
-        values: of each channel, the rails that it has; Nm (N) or A.
-        noisy: of each channel, whether noise lies on them.
-    """
-
-    at: NDArray[np.bool_]
-    values: tuple[tuple[float, ...], ...]
-    noisy: tuple[bool, ...]
+    at: NDArray[np.bool_]  # (N, m) whether a sample lies on a rail
+    values: tuple[tuple[float, ...], ...]  # of each channel, the rails that it has; Nm (N) or A
+    noisy: tuple[bool, ...]  # of each channel, whether noise lies on them
 
 
 def rails(motions: Motions, arm: MovingArm | None = None) -> Rails:

@@ -15,24 +15,16 @@ ON_HELD_OUT = "On held-out motion"
 
 @dataclass(frozen=True)
 class HeldOutErrors:
-    """Of torque on motion that took no part, relative to it.
+    """Of torque on motion that took no part, relative to it."""
 
-    Attributes:
-        without: with friction and rotors alone.
-        anew: with causes found without that motion.
-        named: with the causes that all of the motion names, their sizes found without it.
-        masses: share of a link's mass, and so on, by which those are off that have no name.
-        by_masses: share of what friction and rotors leave that these add to what has a name, in the motion fitted.
-        fitted: with the causes, on the motion fitted; 0 where it plays no part.
-        badly: runs that the user held out and that are met far worse than that, each with its error.
-    """
-
-    without: float
-    anew: float
-    named: float
-    masses: float = 0.0
+    without: float  # with friction and rotors alone
+    anew: float  # with causes found without that motion
+    named: float  # with the causes that all of the motion names, their sizes found without it
+    masses: float = 0.0  # share of a link's mass, and so on, by which those are off that have no name
+    # share of what friction and rotors leave that these add to what has a name, in the motion fitted
     by_masses: float = 0.0
-    fitted: float = 0.0
+    fitted: float = 0.0  # with the causes, on the motion fitted; 0 where it plays no part
+    # runs that the user held out and that are met far worse than that, each with its error
     badly: tuple[tuple[str, float], ...] = ()
 
     @property

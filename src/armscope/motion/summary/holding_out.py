@@ -27,16 +27,11 @@ from armscope.motion.verdict import HeldOutMotion, relative
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """A part of the motion that is held out, and what was selected on the rest.
+    """A part of the motion that is held out, and what was selected on the rest."""
 
-    Attributes:
-        rows: the rows that took no part.
-        which: (K,) which of the rows they are.
-        problem, found: on the rest.
-    """
-
-    rows: MotionRows
-    which: Indices
+    rows: MotionRows  # the rows that took no part
+    which: Indices  # (K,) which of the rows they are
+    # problem, found: on the rest
     problem: Problem
     found: Hypothesis
 
@@ -132,22 +127,14 @@ def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
 
 @dataclass(frozen=True, eq=False)
 class HeldOutTorque:
-    """Torques of K rows that took no part; (K, m) N m or N.
+    """Torques of K rows that took no part; (K, m) N m or N."""
 
-    Attributes:
-        rows: the table that they are of; `which`: (K,) their numbers in it.
-        measured: low-passed.
-        stated: by the arm as stated, nothing fitted.
-        background: with friction and rotor inertia of every joint fitted.
-        model: with masses held near the stated ones, and the causes.
-    """
-
-    rows: MotionRows
+    rows: MotionRows  # the table that they are of; `which`: (K,) their numbers in it
     which: Indices
-    measured: Array
-    stated: Array
-    background: Array
-    model: Array
+    measured: Array  # low-passed
+    stated: Array  # by the arm as stated, nothing fitted
+    background: Array  # with friction and rotor inertia of every joint fitted
+    model: Array  # with masses held near the stated ones, and the causes
 
     @property
     def in_motion(self) -> Array:

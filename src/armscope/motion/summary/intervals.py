@@ -39,17 +39,11 @@ Rivals = Mapping[int, Sequence[Hypothesis]]
 
 @dataclass(frozen=True, eq=False)
 class Sureness:
-    """How far a selection can be trusted.
+    """How far a selection can be trusted."""
 
-    Attributes:
-        search: on the selection's problem.
-        rivals: by candidate: hypotheses with another cause in its place.
-        factor: (p,) by which the standard error of each column is larger than the best hypothesis says.
-    """
-
-    search: Search
-    rivals: Rivals
-    factor: Array
+    search: Search  # on the selection's problem
+    rivals: Rivals  # by candidate: hypotheses with another cause in its place
+    factor: Array  # (p,) by which the standard error of each column is larger than the best hypothesis says
 
 
 def sureness(selected: SelectedCauses) -> Sureness:

@@ -35,21 +35,13 @@ LASTS = "something lasts that has no law here"
 
 @dataclass(frozen=True)
 class LastingTorque:
-    """Of one joint.
+    """Of one joint."""
 
-    Attributes:
-        joint: from 0.
-        driver: what it follows, in words.
-        rms: of what is foretold, N m or N.
-        of_torque: that, as a share of the joint's RMS torque.
-        share: its power, as a share of what friction and rotors leave at the joint.
-    """
-
-    joint: int
-    driver: str
-    rms: float
-    of_torque: float
-    share: float
+    joint: int  # from 0
+    driver: str  # what it follows, in words
+    rms: float  # of what is foretold, N m or N
+    of_torque: float  # that, as a share of the joint's RMS torque
+    share: float  # its power, as a share of what friction and rotors leave at the joint
 
 
 def lasting_torques(selected: SelectedCauses) -> tuple[LastingTorque, ...]:

@@ -20,17 +20,11 @@ from armscope.verdict.effects import INDISTINGUISHABLE_NATS
 
 @dataclass(frozen=True)
 class NameOfMasses:
-    """A name in the place of masses that have none.
+    """A name in the place of masses that have none."""
 
-    Attributes:
-        selected: the selection with it.
-        number: of its candidate.
-        nats: by which it is likelier than that its links are off without a name.
-    """
-
-    selected: SelectedCauses
-    number: int
-    nats: float
+    selected: SelectedCauses  # the selection with it
+    number: int  # of its candidate
+    nats: float  # by which it is likelier than that its links are off without a name
 
     @property
     def is_told(self) -> bool:

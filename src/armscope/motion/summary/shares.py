@@ -16,16 +16,12 @@ from armscope.motion.library.catalogue import DELAY
 
 @dataclass(frozen=True)
 class Worth:
-    """Of one cause, of the squared torque, in units of each joint's noise, that friction and rotors leave.
+    """Of one cause, of the squared torque, in units of each joint's noise, that friction and rotors leave."""
 
-    Attributes:
-        share: how much of it goes when the cause is cured as it was found, averaged over the orders in which all can
-            be cured (Shapley 1953); below zero it hides part of what others do.
-        minor: whether it is apart from the story.
-    """
-
+    # how much of it goes when the cause is cured as it was found, averaged over the orders in which all can be cured
+    # (Shapley 1953); below zero it hides part of what others do
     share: float
-    minor: bool = False
+    minor: bool = False  # whether it is apart from the story
 
 
 def worth_of(selected: SelectedCauses) -> tuple[list[Worth], float]:
