@@ -22,7 +22,7 @@ from armscope.diagnosis import Settings, diagnose
 from armscope.fleet.members import Member, diagnose_members
 from armscope.fleet.simulation import WEAKNESSES, arm_spec
 from armscope.fleet.summary import arms, causes_of_arms, learned_sizes, priors, repeated, verdicts
-from armscope.proof.answers import claim_of
+from armscope.proof.answers import NamedEffect
 from armscope.proof.intervals import compare_numbers
 from armscope.proof.matching import match
 from armscope.proof.truth import Truth, seal, unseal
@@ -53,7 +53,7 @@ def learned(home: Path) -> Path:
 def scored(truth: Truth, arm: Arm, table: Path) -> Iterator[tuple[str, float]]:
     """What a diagnosis got right, as (what, value)."""
     verdict = diagnose(arm, read_recordings(table, arm.n_motors), QUICK)
-    claims = [claim_of(effect) for effect in verdict.effects if not effect.minor]
+    claims = [NamedEffect.of(effect) for effect in verdict.effects if not effect.minor]
     matches, left = match([effect for effect in truth.effects if not effect.minor], claims)
     yield "false names", float(len(left))
     for each in matches:

@@ -1,5 +1,7 @@
 """Benchmarks are run by hand, so what they reach into must be there: a part of a diagnosis is timed inside it."""
 
+import importlib
+import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -9,7 +11,8 @@ from benchmarks.diagnosis import measure, told
 from benchmarks.price_of_search import noncentrality, smallest_p_values
 from scipy.stats import norm
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "one-effect"
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "one-effect"
 
 
 @pytest.mark.long
@@ -36,3 +39,22 @@ def test_the_price_of_search_is_that_of_so_many_independent_tests():
     assert np.sqrt(noncentrality(expected[0], 1) / noncentrality(0.01, 1)) == pytest.approx(
         (norm.isf(expected[0] / 2) + norm.isf(0.1)) / (norm.isf(0.005) + norm.isf(0.1)), rel=1e-3
     )
+
+
+BESIDE = sorted(
+    str(path.relative_to(ROOT)) for folder in ("benchmarks", "tools") for path in (ROOT / folder).glob("*.py")
+)
+
+
+@pytest.mark.parametrize("script", BESIDE)
+def test_what_stands_beside_the_package_finds_what_it_takes_from_it(script: str) -> None:
+    """A name that moved, or went because nothing in the package called it, broke a benchmark and the installation."""
+    importlib.import_module(script.removesuffix(".py").replace("/", "."))
+
+
+def test_the_installation_finds_what_it_calls() -> None:
+    makefile = (ROOT / "Makefile").read_text("utf-8")
+    called = re.findall(r'python -c "from ([\w.]+) import (\w+); \w+\.(\w+)\(\)"', makefile)
+    assert called
+    for package, module, function in called:
+        assert callable(getattr(importlib.import_module(f"{package}.{module}"), function))

@@ -12,7 +12,7 @@ from armscope.swarm.kernel_data import LANES, Outcome, Pack, Problems
 from armscope.swarm.least_squares_objective import LeastSquares
 from armscope.swarm.result import StopReason, SwarmResult, final_reason
 from armscope.swarm.settings import SwarmSettings
-from armscope.swarm.streams import set_sfc64_states, sfc64_states
+from armscope.swarm.streams import set_sfc64_states, sfc64_states, spawn_generators
 
 
 def run_kernel(
@@ -69,6 +69,13 @@ def run_kernel(
         for code, best in zip(outcome.codes.tolist(), outcome.fitness, strict=True)
     ]
     return SwarmResult(outcome.positions, outcome.fitness, outcome.history, outcome.iterations, reasons)
+
+
+def compile_now() -> None:
+    """Compile the kernel into its cache, so that no run has to: a part of the installation (Makefile)."""
+    least = LeastSquares(np.eye(1)[None], np.zeros(1, dtype=np.intp), np.zeros((1, 1)), np.zeros(1))
+    bounds = np.ones((1, 1))
+    run_kernel(least, -bounds, bounds, spawn_generators(0, 1), SwarmSettings(particles=2, iterations=1))
 
 
 def _empty_pack(given: Problems) -> Pack:
