@@ -260,6 +260,7 @@ def test_numbers_of_a_curve_without_a_law_are_no_readings(found: MotionDiagnosis
     ways = tuple(Parameter(f"over way {n}", "N m", 0.01 * n, 1e-3) for n in (1, 2, 3))
     unknown = replace(found.verdict.effects[0], effect="unknown", family="unknown", parameters=ways)
     assert motion_card(unknown, 1).readings == ()
+    assert motion_card(unknown, 1).figure == "curve_1", "its card was empty beside the cure"
     offset = replace(unknown, effect="torque_offset", family="drive", parameters=(replace(ways[0], name="offset"),))
     assert motion_card(offset, 1).readings
 

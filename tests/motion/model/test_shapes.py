@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 
 from armscope.motion.library import catalogue
 from armscope.motion.library.causes import Cause, PlacedCause
+from armscope.motion.library.clinging import taken_along
 from armscope.motion.library.laws import Law
 from armscope.motion.library.layout import OWN
 from armscope.motion.model.fitted import MotionModel
 from armscope.motion.model.fitted_cause import FittedCause
-from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
+from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of, since_reversal
 from armscope.motion.samples.preparation import preparation
 from tests.motion.moving import COULOMB, VISCOUS, robot
 
@@ -47,3 +51,17 @@ def test_a_free_curve_is_the_one_that_was_fitted_with_its_error() -> None:
     np.testing.assert_allclose(value, np.sin(2 * at), atol=5e-3)
     np.testing.assert_allclose(stderr, 0.2)  # all knots up or down together: the curve as a whole
     assert limits_of(FittedCause(cable, values, np.eye(9))) == (-1.0, 1.5)
+
+
+def test_what_clings_over_ways_is_drawn_as_it_goes_on_after_a_reversal() -> None:
+    """By hand: two stops, of 0.1 and 0.4 rad, come round from -1 to 1 over twice their way."""
+    law = Law("clinging over ways", (0,), (0.1, 0.4))
+    placed = SimpleNamespace(columns=law, width=2)
+    covariance = np.diag([0.04, 0.01])
+    cause = cast(FittedCause, SimpleNamespace(placed=placed, values=np.array([3.0, 1.0]), covariance=covariance))
+    way = np.array([0.0, 0.1, 0.2, 0.8, 5.0])
+    value, stderr = since_reversal(cause, way)
+    np.testing.assert_allclose(value, [-4, -0.75, 2.5, 4, 4])
+    np.testing.assert_allclose(stderr[[0, 4]], np.sqrt(0.05))
+    angles = np.concatenate([[0.0], -np.linspace(0.01, 3, 300), -3 + way[1:4]])
+    np.testing.assert_allclose(taken_along(angles, (0.1, 0.4))[-3:] @ cause.values, value[1:4])

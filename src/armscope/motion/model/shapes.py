@@ -48,6 +48,23 @@ def free_curve(cause: FittedCause, at: Array) -> tuple[Array, Array]:
     return columns @ cause.values, np.asarray(errors)
 
 
+def since_reversal(cause: FittedCause, way: Array) -> tuple[Array, Array]:
+    """Torque (N,), and its standard error, of what clings over ways after a long motion backward turned forward.
+
+    Args:
+        cause: of such a law.
+        way: (N,) since the reversal, rad (m of a joint that slides).
+
+    Returns:
+        N m (N).
+    """
+    law = cause.placed.columns
+    assert isinstance(law, Law)
+    taken = np.minimum(way[:, None] / np.array(law.numbers[-cause.placed.width :]) - 1, 1)
+    errors = np.sqrt(np.einsum("nc,cd,nd->n", taken, cause.covariance, taken))
+    return taken @ cause.values, np.asarray(errors)
+
+
 def limits_of(cause: FittedCause) -> tuple[float, float]:
     """Between which values of its driver a free curve was fitted."""
     law = cause.placed.columns

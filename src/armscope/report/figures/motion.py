@@ -9,7 +9,10 @@ import numpy as np
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
 from armscope.motion.library.laws import Law
-from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of
+from armscope.motion.library.remedies_of_curves import WAY
+from armscope.motion.model.fitted_cause import FittedCause
+from armscope.motion.model.shapes import free_curve, friction_over_speed, limits_of, since_reversal
+from armscope.motion.verdict import FoundCause
 from armscope.report.colours import AFTER, BEFORE, MEASURED, OUTLINE, QUIET, Key
 from armscope.report.figures.along_joints import running_mean
 from armscope.report.figures.effect_curve import DrawnCurve, draw_curves
@@ -25,6 +28,7 @@ FEW = 2  # Joints up to which a picture has the width of half a page
 MOST_ROWS, MOST_DOTS = 450, 500
 BEYOND = 1.6  # A simulated torque is drawn up to so many times the measured ones' range
 DASH = "5 4"
+KNOT, OVER_WAY = "knot ", "over way "  # How numbers are called that are points of a curve, or slip after a way
 TRACE = (Key(MEASURED, "measured", "wide"), Key(BEFORE, "as stated", "dashed"), Key(AFTER, "corrected"))
 LEFT = (Key(BEFORE, "friction only"), Key(AFTER, "with causes"))
 FRICTION = (Key(QUIET, "rows", "dots"), Key(AFTER, "model"))  # What the colours of each kind of picture stand for
@@ -156,24 +160,37 @@ def left_figures(subject: MotionSubject) -> Iterator[Drawn]:
 
 
 def curve_figures(subject: MotionSubject) -> Iterator[Drawn]:
-    """Free curves among the causes, by the number of the cause."""
+    """Free curves among the causes, and what clings over ways, by the number of the cause."""
     fitted = {(str(each.placed.cause.name), each.placed.location, each.placed.driver): each
-              for each in subject.found.model.causes if each.placed.is_curve}  # fmt: skip
+              for each in subject.found.model.causes}  # fmt: skip
     for number, cause in enumerate(subject.verdict.effects, start=1):
         curve = fitted.get((cause.effect, cause.location, cause.driver))
-        if curve is not None:
-            law = curve.placed.columns
-            assert isinstance(law, Law)
-            at = np.linspace(*_seen(subject, cause.driver, law.joints[0], limits_of(curve)), 120)
-            value, stderr = free_curve(curve, at)
-            factor, unit = _driver_unit(subject, cause.driver, law.joints[0])
-            band = INTERVAL * stderr
-            drawn = DrawnCurve(
-                f"what {cause.location} does over the {cause.driver}",
-                factor * at, value, value - band, value + band,
-                f"{cause.driver} ({unit})", f"torque ({cause.unit})",
-            )  # fmt: skip
-            yield Drawn(f"curve_{number}", draw_curves([drawn]))
+        if curve is not None and is_drawn(cause):
+            yield Drawn(f"curve_{number}", draw_curves([_drawn_curve(subject, cause, curve)]))
+
+
+def is_drawn(cause: FoundCause) -> bool:
+    """Whether a cause has a curve that says more than its numbers."""
+    return any(each.name.startswith((KNOT, OVER_WAY)) for each in cause.parameters)
+
+
+def _drawn_curve(subject: MotionSubject, cause: FoundCause, curve: FittedCause) -> DrawnCurve:
+    law = curve.placed.columns
+    assert isinstance(law, Law)
+    if cause.driver == WAY:
+        longest = 2 * max(law.numbers[-curve.placed.width :])
+        at = longest * np.linspace(0, 1, 241) ** 2  # the short ways lie close together
+        value, stderr = since_reversal(curve, at)
+    else:
+        at = np.linspace(*_seen(subject, cause.driver, law.joints[0], limits_of(curve)), 120)
+        value, stderr = free_curve(curve, at)
+    factor, unit = _driver_unit(subject, cause.driver, law.joints[0])
+    band = INTERVAL * stderr
+    return DrawnCurve(
+        f"what {cause.location} does over the {cause.driver}",
+        factor * at, value, value - band, value + band,
+        f"{cause.driver} ({unit})", f"torque ({cause.unit})",
+    )  # fmt: skip
 
 
 def _seen(subject: MotionSubject, driver: str, joint: int, limits: tuple[float, float]) -> tuple[float, float]:
@@ -188,7 +205,12 @@ def _seen(subject: MotionSubject, driver: str, joint: int, limits: tuple[float, 
 
 def _driver_unit(subject: MotionSubject, driver: str, joint: int) -> tuple[float, str]:
     factor, unit = subject.shown(joint)
-    units = {"joint angle": (factor, unit), "speed": (factor, f"{unit}/s"), "load": (1.0, subject.unit(joint))}
+    units = {
+        "joint angle": (factor, unit),
+        WAY: (factor, unit),
+        "speed": (factor, f"{unit}/s"),
+        "load": (1.0, subject.unit(joint)),
+    }
     return units.get(driver, (1.0, {"time": "s", "temperature": "°C"}.get(driver, "")))
 
 

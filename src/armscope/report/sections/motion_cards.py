@@ -10,11 +10,11 @@ from armscope.motion.library.clauses import rms_of
 from armscope.motion.summary.doubts import may_be_nothing
 from armscope.motion.summary.words import clause
 from armscope.motion.verdict import FoundCause
+from armscope.report.figures.motion import KNOT, is_drawn
 from armscope.report.sections.effect_cards import ShownAlternative, gap_in_words
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS, Alternative, Parameter
 from armscope.verdict.wording import Reading, capitalised, evidence_in_words, percent, read_parameter
 
-KNOT = "knot "
 BY_VALUES = "found by trying values"
 
 
@@ -41,7 +41,6 @@ class MotionCard:
 
 def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
     """The card of a cause. ``number``: of it among the causes of torque (from 1); other words make another anchor."""
-    curve = any(each.name.startswith(KNOT) for each in cause.parameters)
     known = cause_named(cause.effect)
     labels = known.labels if known else {}
     return MotionCard(
@@ -66,7 +65,7 @@ def motion_card(cause: FoundCause, number: int | str) -> MotionCard:
         ),
         paths=f"{capitalised(cause.carries_over)}." if cause.carries_over else "",
         doubt=cause.doubt,
-        figure=f"curve_{number}" if curve else "",
+        figure=f"curve_{number}" if is_drawn(cause) else "",
     )
 
 
