@@ -72,3 +72,33 @@ def test_joints_that_stand_hide_no_other_clock(late: float, told: str) -> None:
     found = [each.statement for each in seen if "the motion" in each.statement]
     assert bool(found) == bool(told)
     assert all(told in each for each in found)
+
+
+def moves_with_rests() -> Motions:
+    """All joints start and stop at once and rest between; friction keeps its side from the last way on."""
+    arm, rng, pieces = robot(), np.random.default_rng(4), []
+    data, time = arm.model.createData(), np.arange(0, 30, 0.005)
+    for run in range(2):
+        stops = rng.uniform(-1.2, 1.2, (16, 3))
+        along = np.clip((time % 2.0) / 0.9, 0, 1)
+        share = (along - np.sin(2 * np.pi * along) / (2 * np.pi))[:, None]
+        leg = (time // 2.0).astype(int)
+        q = stops[leg] + share * (stops[leg + 1] - stops[leg])
+        dq = np.gradient(q, time, axis=0)
+        ddq = np.gradient(dq, time, axis=0)
+        rigid = np.array([pin.rnea(arm.model, data, *row).copy() for row in zip(q, dq, ddq, strict=True)])
+        friction = np.sign(stops[leg + 1] - stops[leg])  # until the next way begins
+        torque = rigid + 8 * COULOMB * friction + VISCOUS * dq + ROTOR * ddq
+        columns = {"run": f"moves {run + 1}", "time_s": time}
+        columns |= {f"q{j + 1}_rad": q[:, j] + 1e-5 * rng.normal(size=len(q)) for j in range(3)}
+        pieces.append(pd.DataFrame(columns | {f"tau{j + 1}_nm": torque[:, j] for j in range(3)}))
+    return as_motions(pd.concat(pieces, ignore_index=True), "motions.csv", 3)
+
+
+@pytest.mark.parametrize(("late", "told"), [(0.2, "200 ms after"), (-0.2, "200 ms before"), (0.0, "")])
+def test_friction_that_holds_a_rest_is_no_other_clock(late: float, told: str) -> None:
+    """Where a joint rests friction keeps its side: taken for motion, that hid another clock, and looked like one."""
+    seen = check_moving(put_off(moves_with_rests(), late, (0, 1, 2)), robot()).suspicions
+    found = [each.statement for each in seen if "the motion" in each.statement]
+    assert bool(found) == bool(told)
+    assert all(told in each for each in found)

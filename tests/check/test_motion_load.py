@@ -40,6 +40,12 @@ def test_a_load_that_nobody_stated_is_no_problem_of_the_table(seed: int) -> None
     assert "tool_load" in told.cure
 
 
+def test_a_payload_that_the_table_states_is_no_load_that_nobody_stated() -> None:
+    motions = carrying(3.0, 1)
+    stated = replace(motions, payload=np.full(len(motions), 3.0))
+    assert not check_moving(stated, light(tool_mm=[0, 0, 0])).suspicions
+
+
 @pytest.mark.parametrize("seed", seeds(1, 3))
 def test_one_channel_in_another_unit_is_no_load(seed: int) -> None:
     good = moved(robot(), seed)

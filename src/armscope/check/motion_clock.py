@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from scipy.ndimage import binary_closing
 
 from armscope.check.motion_constants import MOTION
 from armscope.check.motion_readings import Samples
@@ -90,8 +90,8 @@ def _left(motions: Motions, runs: dict[str, tuple[Array, Samples]], arm: MovingA
     rigid = arm.torques(q, dq, ddq, arm.inertial)
     left = np.ones(tau.shape[1:])
     for j in range(tau.shape[2]):
-        near = maximum_filter1d(np.abs(dq[:, j]), 2 * MOTION.around + 1)  # a joint that turns back does not stand
-        moving = near > MOTION.standing * near.max()
+        speed = np.abs(dq[:, j])
+        moving = binary_closing(speed > MOTION.standing * speed.max(), np.ones(MOTION.around + 1, dtype=bool))
         if moving.sum() < MOTION.reading_samples:
             continue
         shifted, speed = tau[moving, :, j], dq[moving, j]

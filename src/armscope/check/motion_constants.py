@@ -86,7 +86,8 @@ class MotionRules(Constants):
     """of a joint's greatest speed, below which it stands; measured: 0.01 to 0.1 tell the UR10e put off by 100 ms either
     way, and nothing of three sets as they are"""
     around: int = 5
-    """samples either side in which a joint that turns back moves again; judgement: a quarter of a second"""
+    """samples below that speed for which a joint that turns back may stand between two motions; judgement: a quarter of
+    a second, rests are longer"""
     link_factor: float = 0.05
     """of the motor's travel, by which a link's may differ; judgement: no drive winds up so far, and no reduction is so
     wrong"""

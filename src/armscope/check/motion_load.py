@@ -11,6 +11,7 @@ from armscope.check.motion_readings import Samples, beyond_friction, left_in_all
 from armscope.check.suspicion import Suspicion
 from armscope.core.sampling import spread_evenly
 from armscope.core.types import Array
+from armscope.recordings.motions import Motions
 from armscope.robot.dynamics import MovingArm
 
 
@@ -28,6 +29,13 @@ def factors_of(samples: Samples, rigid: Array) -> dict[int, float]:
 def is_of_another_size(factor: float) -> bool:
     """Whether a torque is far from that of the masses."""
     return not 1 / MOTION.other_size < factor < MOTION.other_size
+
+
+def with_stated_payload(arm: MovingArm, motions: Motions) -> MovingArm:
+    """The arm with the payload that most samples state, at its tool point."""
+    if motions.payload is None:
+        return arm
+    return replace(arm, inertial=arm.inertial + float(np.median(motions.payload)) * arm.point_load())
 
 
 def with_a_load(samples: Samples, arm: MovingArm) -> tuple[MovingArm, float] | None:

@@ -12,7 +12,7 @@ import numpy as np
 from armscope.check.motion_channels import Channels
 from armscope.check.motion_clock import other_clock
 from armscope.check.motion_constants import MOTION
-from armscope.check.motion_load import unstated_load, with_a_load
+from armscope.check.motion_load import unstated_load, with_a_load, with_stated_payload
 from armscope.check.motion_mistakes import mistakes
 from armscope.check.motion_readings import Samples
 from armscope.check.suspicion import SAYS_MORE, TOO_SHORT, Suspicion, first_of_suspicions, verdict_lines
@@ -115,7 +115,7 @@ def check_moving(motions: Motions, arm: MovingArm | None = None) -> MotionCheck:
     found += [*_speeds(even), *_same_paths(even), *links_beside_motors(even)]
     if arm is not None and not broken:  # speeds across a leap are no speeds
         runs = {run: _coarse(even, run) for run in even.runs}
-        samples = _samples([few for _, few in runs.values()])
+        samples, arm = _samples([few for _, few in runs.values()]), with_stated_payload(arm, even)
         if even.kind == "torque" and (loaded := with_a_load(samples, arm)) is not None:
             arm, mass = loaded
             found.append(unstated_load(mass))

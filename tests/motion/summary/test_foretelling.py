@@ -11,7 +11,7 @@ import pytest
 
 from armscope.core.types import Array
 from armscope.inference.evidence import evaluate
-from armscope.inference.model_space import Candidate, ModelSpace
+from armscope.inference.model_space import Candidate, ModelSpace, ToleranceFamily
 from armscope.inference.normal_equations import NormalEquations, total
 from armscope.inference.problem import SelectedEffect, build_problem
 from armscope.motion.fitting.selected import SelectedCauses
@@ -75,6 +75,27 @@ def test_what_a_slow_run_leaves_open_is_no_surprise() -> None:
     """By its best guess, which is off by more than the law itself, the fast one is met worse than by none."""
     law = of_two_runs(1.0, 1.0, 0.002)
     assert worth(law, misfits) < 0 < worth(law, surprises)
+
+
+def of_a_run_that_turns_back_and_moves() -> Any:
+    """A law in both; in the second friction changes sides in its own way, of which its few starts show little."""
+    rng, rows, noise, blocks = np.random.default_rng(6), 200, 0.1, []
+    for often, side in ((1.0, 1.0), (0.05, 5.0)):
+        sides = often * rng.normal(size=rows)
+        law = 0.5 * sides + rng.normal(size=rows)
+        X = np.column_stack([np.ones(rows), law, sides])
+        y = law + side * sides + rng.normal(0, noise, rows)
+        blocks.append(NormalEquations(X.T @ X, X.T @ y, float(y @ y), float(rows)))
+    sides = ToleranceFamily("reversals", np.array([2]), np.array([10.0]), (0.0, 1.0))
+    space = ModelSpace(np.arange(1), (sides,), (Candidate("law", "here", np.array([1]), np.ones(1)),))
+    problem = build_problem(space, total(blocks), 0.5 * noise)
+    best = evaluate(problem, (SelectedEffect(0, len(problem.sizes) - 1),), (1,), noise)
+    return SimpleNamespace(blocks=blocks, problem=problem, best=best)
+
+
+def test_no_name_is_blamed_for_how_friction_changes_sides_elsewhere() -> None:
+    """A tilted base was no name, nor an offset: what moves guess of reversals was worse beside them than without."""
+    assert worth(of_a_run_that_turns_back_and_moves(), misfits) > 0
 
 
 def test_what_a_run_is_sure_of_and_is_another_elsewhere_surprises() -> None:

@@ -102,8 +102,13 @@ def _clinging_over_torques(m: Moment, joints: tuple[int, ...], cutoff: float, *w
 
 def _powers_of_torque(m: Moment, joints: tuple[int, ...], usual: float) -> Array:
     torque = (m.predicted if m.bare is None else m.bare)[:, joints[0]]
+    return np.column_stack([_read(m, joints), higher_powers(torque, usual)])
+
+
+def higher_powers(torque: Array, usual: float) -> Array:
+    """(N, 2) square and cube of a torque (N,), with its sign, in units of the usual one."""
     share = torque / usual
-    return np.column_stack([_read(m, joints), torque * np.abs(share), torque * share**2])
+    return np.column_stack([torque * np.abs(share), torque * share**2])
 
 
 def _read(m: Moment, joints: tuple[int, ...]) -> Array:

@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis, at_noise, evaluate
+from armscope.inference.evidence import Hypothesis, at_noise
 from armscope.inference.normal_equations import total
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.consistency import Weighed
 from armscope.motion.fitting.selected import SelectedCauses
 from armscope.motion.fitting.selection import at_own_gain, chosen
+from armscope.motion.fitting.sides_by_all import fitted_beside
 from armscope.motion.fitting.space import OF_MASSES, OF_REVERSALS, without_backgrounds
 from armscope.motion.summary.constants import HELD_OUT
 
@@ -68,7 +69,7 @@ def held_out_gains(selected: Weighed) -> dict[int, float]:
 def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedEffect, ...]]]) -> Array:
     """Nats that effects, with a hypothesis' background and noise and fitted to the other blocks, leave of each block.
 
-    Beside those of nothing at all.
+    Beside those of nothing at all; how friction changes sides is what all blocks say, see `fitted_beside`.
 
     Args:
         selected: with B blocks.
@@ -82,7 +83,7 @@ def misfits(selected: Weighed, asked: Sequence[tuple[Hypothesis, tuple[SelectedE
         rest = total([other for number, other in enumerate(selected.blocks) if number != held])
         trained, apart = selected.problem.with_equations(rest), block.scaled(selected.problem.scale)
         for row, (best, effects) in zip(nats, asked, strict=True):
-            fitted = evaluate(trained, effects, best.background, best.noise)
+            fitted = fitted_beside(selected.problem, trained, effects, best.background, best.noise)
             at = fitted.columns
             squares = fitted.mean @ apart.G[np.ix_(at, at)] @ fitted.mean - 2 * apart.b[at] @ fitted.mean
             row[held] = float(squares) / (2 * best.noise**2)

@@ -37,6 +37,7 @@ from armscope.motion.summary.foretelling import held_out_gains, misfits, with_ba
 from armscope.motion.summary.in_proportion import rather_in_proportion
 from armscope.motion.summary.names_of_masses import NameOfMasses, far_off, likeliest_name, likely_names
 from armscope.motion.summary.no_bodies import no_link, no_load, no_place, not_at_the_flange
+from armscope.motion.summary.of_own_torque import of_another_model
 from armscope.motion.summary.rather_carried import rather_carried
 from armscope.motion.summary.unnamed_masses import is_of_masses, odds_of_name, off_without_a_name
 from armscope.verdict.effects import INDISTINGUISHABLE_NATS
@@ -74,7 +75,7 @@ def tenable(selected: SelectedCauses, rate: float) -> SelectedCauses:
 def _untenable(selected: SelectedCauses, rate: float) -> frozenset[int]:
     """Numbers of the names that can't stand."""
     own = {*_impossible(selected), *_between_samples(selected, rate), *told_by_reversals_alone(selected)}
-    return frozenset({*own, *_cancelling(selected), *_of_one_path(selected)})
+    return frozenset({*own, *of_another_model(selected), *_cancelling(selected), *_of_one_path(selected)})
 
 
 def _alike(layout: TorqueLayout, wrong: frozenset[int]) -> frozenset[int]:
