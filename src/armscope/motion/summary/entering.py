@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from armscope.core.types import Array
+from armscope.inference.evidence import evaluate
 from armscope.motion.fitting.gains import gain_of
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
 from armscope.motion.library.layout import CAUSES_OF_OWN, OWN
@@ -45,7 +46,7 @@ def as_entered(selected: SelectedCauses, parts: Sequence[Fold], order: Sequence[
     missed: list[list[Array]] = [[] for _ in states]
     torques: list[Array] = []
     for fold in parts:
-        fitted = coefficients_of(fold.problem, fold.fitted(best.chosen, best.background))
+        fitted = coefficients_of(fold.problem, evaluate(fold.problem, best.chosen, best.background, fold.found.noise))
         stated = np.nan_to_num(layout.arm.stated_background[:, 1:3])
         fitted[own[:, :2]] = np.maximum(fitted[own[:, :2]], -stated)
         torque = fold.rows.torque[fold.which]

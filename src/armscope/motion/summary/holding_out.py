@@ -9,14 +9,12 @@ import numpy as np
 
 from armscope.core.types import Array, Indices
 from armscope.inference.evidence import Hypothesis, evaluate
-from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.normal_equations import total
-from armscope.inference.problem import Problem, SelectedEffect
+from armscope.inference.problem import Problem
 from armscope.inference.search import Search
 from armscope.motion.constants import NOISE
 from armscope.motion.fitting.rows import MotionRows
 from armscope.motion.fitting.selected import SelectedCauses, coefficients_of
-from armscope.motion.fitting.sides_by_all import fitted_beside
 from armscope.motion.fitting.space import of_joints
 from armscope.motion.fitting.weights import noise_of, weighed
 from armscope.motion.library.change_constants import CHANGE
@@ -36,13 +34,6 @@ class Fold:
     # problem, found: on the rest
     problem: Problem
     found: Hypothesis
-    whole: Problem  # on all of the motion, which tells how friction changes sides; the rest itself where that is all
-
-    def fitted(self, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> Hypothesis:
-        """Effects and a background fitted to the rest, but for how friction changes sides, see `fitted_beside`."""
-        if self.whole is self.problem:
-            return evaluate(self.problem, chosen, background, self.found.noise)
-        return fitted_beside(self.whole, self.problem, chosen, background, self.found.noise)
 
 
 def folds(selected: SelectedCauses) -> list[Fold]:
@@ -57,8 +48,7 @@ def folds(selected: SelectedCauses) -> list[Fold]:
         also = search.evaluated(selected.best.chosen, selected.best)
         found = search.best((selected.best.background,), also=also, local=False)
         which = np.flatnonzero(np.isin(selected.block, held))
-        fold = Fold(selected.rows, which, problem, found, selected.problem)
-        made.append(replace(fold, found=fold.fitted(found.chosen, found.background)))
+        made.append(Fold(selected.rows, which, problem, found))
     return made
 
 
@@ -132,7 +122,7 @@ def _of_all_runs(selected: SelectedCauses, problem: Problem, held: tuple[int, ..
 
 def own_fold(selected: SelectedCauses, rows: MotionRows) -> Fold:
     """Runs that were kept out of the selection altogether."""
-    return Fold(rows, np.arange(len(rows)), selected.problem, selected.best, selected.problem)
+    return Fold(rows, np.arange(len(rows)), selected.problem, selected.best)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +174,7 @@ def held_out_torques(parts: Sequence[Fold]) -> tuple[HeldOutTorque, ...]:
     made = []
     for fold in parts:
         stated = fold.rows.nominal[fold.which]
-        friction = fold.fitted((), of_joints(fold.problem.space, fold.found.background))
+        friction = evaluate(fold.problem, (), of_joints(fold.problem.space, fold.found.background), fold.found.noise)
         background, model = (stated + modelled(fold, hypothesis) for hypothesis in (friction, fold.found))
         made.append(HeldOutTorque(fold.rows, fold.which, fold.rows.torque[fold.which], stated, background, model))
     return tuple(made)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from armscope.core.types import Array
-from armscope.inference.evidence import Hypothesis
+from armscope.inference.evidence import Hypothesis, evaluate
 from armscope.inference.model_space import BackgroundSizes
 from armscope.inference.problem import SelectedEffect
 from armscope.motion.fitting.selected import SelectedCauses
@@ -35,7 +35,7 @@ def waterfall(
     states: list[tuple[str, tuple[int, ...], bool]]
     states = [("friction and rotors", (), False), (_held_near(selected), (), True)]
     states += [(label, tuple(order[: n + 1]), True) for n, label in enumerate(labels)]
-    steps, whole = [], Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best, selected.problem)
+    steps, whole = [], Fold(selected.rows, np.arange(len(selected.rows)), selected.problem, best)
     for label, members, masses in states:
         background = best.background if masses else of_joints(selected.space, best.background)
         chosen = tuple(by_candidate[c] for c in members)
@@ -64,7 +64,7 @@ def _error_with(parts: Sequence[Fold], chosen: tuple[SelectedEffect, ...], backg
 
 def _errors(fold: Fold, chosen: tuple[SelectedEffect, ...], background: BackgroundSizes) -> tuple[Array, Array]:
     """(residuals, torque) of the fold's rows with causes fitted on its sums."""
-    fitted = fold.fitted(chosen, background)
+    fitted = evaluate(fold.problem, chosen, background, fold.found.noise)
     torque = fold.rows.torque[fold.which]
     left = torque - fold.rows.nominal[fold.which] - modelled(fold, fitted)
     return missed_torque(fold.rows, fold.which, left), moving_torque(fold.rows, fold.which, torque)
